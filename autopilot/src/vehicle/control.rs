@@ -139,4 +139,24 @@ mod tests {
             assert!((sink_m_s - expected_m_s).abs() < 1e-9, "{drop_gain}: {sink_m_s}");
         }
     }
+
+    /// How long a drone counts as saturated after six seconds in its place, disturbed by this.
+    fn saturated_ms(disturbance_m_s2: f64) -> i64 {
+        let mut vehicle = Vehicle::new(&VehicleConfig::default()).unwrap();
+        let state = Prediction {
+            disturbance_m_s2: nalgebra::Vector2::new(disturbance_m_s2, 0.0),
+            ..Prediction::default()
+        };
+        let stay = AgentCommand::GoTo(Pose::default());
+        for tick in 0..200 {
+            vehicle.carry_out(Duration::from_millis(30) * tick, stay, [&state, &state], 0.03);
+        }
+        vehicle.flight.saturation.for_ms()
+    }
+
+    #[test]
+    fn a_storm_is_noticed_by_the_disturbance_though_the_measured_place_is_right() {
+        assert_eq!(saturated_ms(0.0), 0);
+        assert!(saturated_ms(4.0) > 3000, "{}", saturated_ms(4.0));
+    }
 }
