@@ -81,7 +81,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
 fn other_code_is_recognised() {
     let (_, file) = recorded(SQUARE, &Simulation::default());
     let mut log = Log::read(&file).unwrap();
-    log.settings = log.settings.replace("law = \"cascade\"", "law = \"tum\"");
+    log.settings = log.settings.replace("speed_max_m_s = 2.2", "speed_max_m_s = 0.5");
     let replay = Replay::new(&log).unwrap();
     assert!(!replay.is_same());
     assert!(replay.largest_stick_difference > 0.1, "{replay}");

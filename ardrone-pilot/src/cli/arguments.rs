@@ -5,8 +5,6 @@ use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, VIDEO_PORT};
 use autopilot::plan;
-use autopilot::vehicle::Law;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -165,9 +163,6 @@ pub(super) struct Fly {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
-    /// How targets are approached and held; `cascade` unless the settings say otherwise
-    #[arg(long, value_name = "LAW", value_parser = laws())]
-    pub(super) law: Option<Law>,
     /// Hold the place by black and white roundels on the floor: find them and map them
     #[arg(long)]
     pub(super) tags: bool,
@@ -231,20 +226,6 @@ impl From<ZOrigin> for plan::ZOrigin {
             ZOrigin::Floor => Self::Floor,
         }
     }
-}
-
-/// Parser for the name of a control law.
-fn laws() -> impl TypedValueParser<Value = Law> {
-    let value = |law: Law| {
-        PossibleValue::new(law.name()).help(match law {
-            Law::Cascade => "Reference, feed-forward, and feedback on the predicted state",
-            Law::Tum => "That of TUM's autopilot, for comparison",
-        })
-    };
-    PossibleValuesParser::new(Law::ALL.map(value)).map(|name| {
-        // The value parser accepts only these names.
-        Law::ALL.into_iter().find(|law| law.name() == name).unwrap_or_default()
-    })
 }
 
 /// Parses `ADDRESS:PORT`, or a port on the loopback interface.

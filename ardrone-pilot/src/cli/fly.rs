@@ -40,9 +40,6 @@ const UNSHOWN: usize = 256;
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut settings = read_settings(arguments.config.as_deref())?;
-    if let Some(law) = arguments.law {
-        settings.set_law(law);
-    }
     if arguments.tags || !arguments.tag.is_empty() {
         settings.use_tags(&arguments.tag)?;
     }

@@ -9,10 +9,9 @@ mod tags;
 
 use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{SurveyedTag, VehicleConfig};
-use pid::Law;
 use serde::{Deserialize, Serialize};
 
-use self::section::{Comments, LawName};
+use self::section::Comments;
 use self::sections::{
     Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Vehicle, Video,
 };
@@ -125,11 +124,6 @@ impl Settings {
         toml::to_string(self)
     }
 
-    /// Selects another control law.
-    pub fn set_law(&mut self, law: Law) {
-        self.controller.law = LawName(law);
-    }
-
     /// Uses roundels on the floor, and takes these for surveyed.
     ///
     /// # Errors
@@ -216,6 +210,8 @@ impl Settings {
 
 #[cfg(test)]
 mod tests {
+    use autopilot::vehicle::NavdataRate;
+
     use super::*;
 
     /// The file is there to be read and linked to; the declarations are what counts.
@@ -249,8 +245,7 @@ mod tests {
                     toml::Value::Integer(number) => (number - 1).into(),
                     toml::Value::Boolean(on) => (!on).into(),
                     toml::Value::Array(_) => vec![0.9, 0.8].into(),
-                    toml::Value::String(text) if text == "demo" => "full".into(),
-                    _ => toml::Value::from("tum"),
+                    _ => toml::Value::from("full"),
                 };
                 let mut changed = table.clone();
                 changed[section][name] = other;
@@ -260,16 +255,16 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 45);
+        assert_eq!(tried, 44);
     }
 
     #[test]
     fn what_is_effective_can_be_read_back() {
-        let mut settings = Settings::parse("p", "[drone]\nclimb_max_m_s = 1.0").unwrap();
-        settings.set_law(Law::Tum);
+        let text = "[drone]\nclimb_max_m_s = 1.0\nnavdata = \"full\"";
+        let settings = Settings::parse("p", text).unwrap();
         assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);
         let config = settings.pilot_config(ZOrigin::Floor);
-        assert_eq!(config.law, Law::Tum);
+        assert_eq!(config.navdata, NavdataRate::Full);
         assert!((config.estimator.limits.climb_m_s - 1.0).abs() < 1e-12);
     }
 
@@ -279,7 +274,7 @@ mod tests {
             ("[drone]\ntilt_max = 3", "line 2, column 1"),
             ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),
             ("[drone", "line 1"),
-            ("[controller]\nlaw = \"other\"", "`cascade` or `tum`"),
+            ("[drone]\nnavdata = \"other\"", "`demo` or `full`"),
         ] {
             let error = Settings::parse("my.toml", text).unwrap_err().to_string();
             assert!(error.starts_with("my.toml: ") && error.contains(said), "{error}");

@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use autopilot::vehicle::NavdataRate;
 use nalgebra::Vector2;
-use pid::Law;
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// Declares the values of a section:
 ///
@@ -180,34 +178,6 @@ impl Setting<NavdataRate> for Navdata {
             Self::Demo => NavdataRate::Demo,
             Self::Full => NavdataRate::Full,
         }
-    }
-}
-
-/// The control law, by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct LawName(pub(super) Law);
-
-impl Setting<Law> for LawName {
-    fn of(value: &Law) -> Self {
-        Self(*value)
-    }
-
-    fn value(&self) -> Law {
-        self.0
-    }
-}
-
-impl Serialize for LawName {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(self.0.name())
-    }
-}
-
-impl<'a> Deserialize<'a> for LawName {
-    fn deserialize<D: Deserializer<'a>>(from: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(from)?;
-        let law = Law::ALL.into_iter().find(|law| law.name() == name);
-        law.map(Self).ok_or_else(|| D::Error::unknown_variant(&name, &["cascade", "tum"]))
     }
 }
 

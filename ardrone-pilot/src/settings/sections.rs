@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use autopilot::vehicle::{VehicleConfig, VehicleName};
 use serde::{Deserialize, Serialize};
 
-use super::section::{BitRate, Degrees, LawName, Milliseconds, Navdata, section};
+use super::section::{BitRate, Degrees, Milliseconds, Navdata, section};
 
 /// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
@@ -106,9 +106,6 @@ section! {
 
 section! {
     struct Controller("controller") of VehicleConfig {
-        /// "cascade": reference trajectory, feed-forward, feedback on the predicted state; "tum": the law of
-        /// tum_ardrone, which has no settings.
-        law: LawName = [law],
         /// Horizontal limits of the reference; the acceleration as a fraction of that at full tilt.
         speed_max_m_s: f64 = [cascade.speed_max_m_s] in 0.1..=10.0,
         acceleration_share: f64 = [cascade.acceleration_share] in 0.05..=1.0,
