@@ -1,4 +1,4 @@
-//! The cascade law: reference trajectory, feed-forward and feedback.
+//! The control law: reference trajectory, feed-forward and feedback.
 //!
 //! A reference that the airframe can follow leads to the target. Feed-forward is the command with which an
 //! ideal drone would follow it. Feedback corrects the remaining error, using the state predicted for the
@@ -83,8 +83,9 @@ impl CascadeConfig {
     }
 }
 
+/// Approaches and holds a pose.
 #[derive(Debug, Clone)]
-pub(crate) struct Cascade {
+pub struct PositionController {
     config: CascadeConfig,
     limits: DroneLimits,
     way: Option<Way>,
@@ -111,8 +112,9 @@ fn along(course: &Course, lead_s: f64) -> Reference {
     }
 }
 
-impl Cascade {
-    pub(crate) fn new(config: CascadeConfig, limits: DroneLimits) -> Self {
+impl PositionController {
+    /// A controller in its initial state.
+    pub fn new(config: CascadeConfig, limits: DroneLimits) -> Self {
         Self {
             way: None,
             right: Pid::new(config.horizontal),
@@ -125,16 +127,21 @@ impl Cascade {
     }
 
     /// Resets the reference and the integrals.
-    pub(crate) fn reset(&mut self) {
+    pub fn reset(&mut self) {
         *self = Self::new(self.config, self.limits);
     }
 
-    /// Resets the reference, keeps the integrals.
-    pub(crate) fn rest(&mut self) {
+    /// The drone holds by itself: resets the reference and keeps the integrals.
+    pub fn rest(&mut self) {
         self.way = None;
     }
 
-    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
+    /// Stick fractions for the next step, within the limit. Inputs that are NaN result in no motion.
+    pub fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
+        if !inputs.is_finite() {
+            return Sticks::default();
+        }
+        let inputs = &Inputs { limit: inputs.limit.clamp(0.0, 1.0), ..*inputs };
         let Inputs { pose, target, .. } = *inputs;
         if self.way.is_none() {
             self.way = Some(Way {
@@ -263,6 +270,8 @@ impl Cascade {
 
 #[cfg(test)]
 mod tests {
+    use kinematics::{Pose, Velocity};
+
     use super::*;
 
     #[test]
@@ -280,5 +289,122 @@ mod tests {
         // Some is left in a storm.
         let storm = config.motion_limits(3.0, 9.0, 1.0, 1.0);
         assert!((storm.acceleration_m_s2 - 0.5).abs() < 1e-12, "{storm:?}");
+    }
+
+    fn controller() -> PositionController {
+        PositionController::new(CascadeConfig::default(), DroneLimits::default())
+    }
+
+    /// Sticks after a while at one place.
+    fn demand(pose: Pose, target: Pose, limit: f64) -> Sticks {
+        let mut controller = controller();
+        let step = |controller: &mut PositionController, target: &Pose| {
+            let velocity = &Velocity::default();
+            controller.step(&Inputs {
+                pose: &pose,
+                velocity,
+                target,
+                disturbance_m_s2: Vector2::zeros(),
+                airframe: Airframe::default(),
+                step_s: 0.03,
+                limit,
+                speed_m_s: 99.0,
+                course: None,
+            })
+        };
+        step(&mut controller, &pose);
+        (0..10).map(|_| step(&mut controller, &target)).last().unwrap()
+    }
+
+    #[test]
+    fn each_error_moves_the_stick_that_mends_it() {
+        let here = Pose::default();
+        let ahead = demand(here, Pose { y_m: 1.0, ..here }, 1.0);
+        assert!(ahead.pitch < -0.1 && ahead.roll.abs() < 1e-9, "{ahead:?}");
+        let right = demand(here, Pose { x_m: 1.0, ..here }, 1.0);
+        assert!(right.roll > 0.1 && right.pitch.abs() < 1e-9, "{right:?}");
+        assert!(demand(here, Pose { z_m: 0.2, ..here }, 1.0).gaz > 0.1);
+        assert!(demand(here, Pose { z_m: -0.2, ..here }, 1.0).gaz < -0.1);
+        assert!(demand(here, Pose { yaw_deg: 20.0, ..here }, 1.0).yaw > 0.1);
+    }
+
+    #[test]
+    fn a_turned_drone_flies_to_the_same_place() {
+        // Facing right: a target to the right is ahead.
+        let pose = Pose { yaw_deg: 90.0, ..Pose::default() };
+        let demand = demand(pose, Pose { x_m: 1.0, ..pose }, 1.0);
+        assert!(demand.pitch < -0.1 && demand.roll.abs() < 1e-9, "{demand:?}");
+    }
+
+    #[test]
+    fn yaw_goes_the_short_way_round() {
+        let pose = Pose { yaw_deg: 171.0, ..Pose::default() };
+        for yaw_deg in [-170.0, 181.0 + 360.0] {
+            assert!(demand(pose, Pose { yaw_deg, ..pose }, 1.0).yaw > 0.0);
+        }
+    }
+
+    #[test]
+    fn the_limit_holds_on_every_axis_at_every_heading() {
+        for yaw_deg in 0..360 {
+            let pose = Pose { yaw_deg: f64::from(yaw_deg), ..Pose::default() };
+            let target = Pose { x_m: 9.0, y_m: -7.0, z_m: 5.0, yaw_deg: pose.yaw_deg + 179.0 };
+            let demand = demand(pose, target, 0.3);
+            for stick in [demand.roll, demand.pitch, demand.gaz, demand.yaw] {
+                assert!(stick.abs() <= 0.3 + 1e-12, "{demand:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_course_is_followed() {
+        let here = Pose::default();
+        let mut controller = controller();
+        let mut step = |course: Option<&Course>| {
+            controller.step(&Inputs {
+                pose: &here,
+                velocity: &Velocity::default(),
+                target: &here,
+                disturbance_m_s2: Vector2::zeros(),
+                airframe: Airframe::default(),
+                step_s: 0.03,
+                limit: 1.0,
+                speed_m_s: 99.0,
+                course,
+            })
+        };
+        assert_eq!(step(None), Sticks::default());
+        let forward = Course::new(Vector2::zeros(), Vector2::new(0.0, 0.5));
+        let demand = step(Some(&forward));
+        assert!(demand.pitch < -0.1 && demand.roll.abs() < 1e-9, "{demand:?}");
+        assert!(step(None).pitch.abs() < 0.01, "it is at the target");
+        let nowhere = Course::new(Vector2::new(0.0, f64::NAN), Vector2::zeros());
+        assert_eq!(step(Some(&nowhere)), Sticks::default());
+    }
+
+    #[test]
+    fn what_is_no_number_moves_nothing_and_spoils_nothing() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut controller = controller();
+            let good = Pose::default();
+            let target = Pose { y_m: 1.0, ..good };
+            for pose in [Pose { x_m: bad, ..good }, Pose { yaw_deg: bad, ..good }] {
+                let velocity = &Velocity::default();
+                let inputs = Inputs {
+                    pose: &pose,
+                    velocity,
+                    target: &target,
+                    disturbance_m_s2: Vector2::zeros(),
+                    airframe: Airframe::default(),
+                    step_s: 0.03,
+                    limit: 1.0,
+                    speed_m_s: 99.0,
+                    course: None,
+                };
+                assert_eq!(controller.step(&inputs), Sticks::default());
+                let demand = controller.step(&Inputs { pose: &good, ..inputs });
+                assert!(demand.pitch.is_finite() && demand.pitch <= 0.0);
+            }
+        }
     }
 }

@@ -1,11 +1,11 @@
-//! What a control law decides by.
+//! What the control law decides by.
 
 use kinematics::{Airframe, Pose, Velocity};
 use nalgebra::Vector2;
 
 use crate::course::Course;
 
-/// Inputs of a control law.
+/// Inputs of the control law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs<'a> {
     /// Pose at the time when the demand takes effect.
@@ -22,10 +22,9 @@ pub struct Inputs<'a> {
     pub step_s: f64,
     /// Limit of the sticks, from 0 to 1.
     pub limit: f64,
-    /// Largest horizontal speed, in m/s, besides that of the law's configuration. Only the cascade heeds it.
+    /// Largest horizontal speed, in m/s, besides that of the law's configuration.
     pub speed_m_s: f64,
-    /// The horizontal reference, if the caller moves one: otherwise the law makes its own, which ends at the target. Only
-    /// the cascade heeds it.
+    /// The horizontal reference, if the caller moves one: otherwise the law makes its own, which ends at the target.
     pub course: Option<&'a Course>,
 }
 

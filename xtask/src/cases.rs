@@ -1,8 +1,8 @@
-//! Cases to fly: plans, airframes, conditions, control laws.
+//! Cases to fly: plans, airframes, conditions.
 
 use std::time::Duration;
 
-use autopilot::vehicle::{Law, NavdataRate, VehicleConfig};
+use autopilot::vehicle::{NavdataRate, VehicleConfig};
 use mock_drone::airframe::Profile;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
@@ -90,12 +90,9 @@ pub(crate) const CASES: [Case; 12] = [
     Case { plans: &HOVER, bound_s: None, ..HARD },
 ];
 
-/// The reference law first.
-pub(crate) const LAWS: [Law; 2] = [Law::Tum, Law::Cascade];
-
 impl Case {
     /// Simulated world and vehicle of one flight.
-    pub(crate) fn simulation(&self, law: Law, seed: u64) -> Simulation {
+    pub(crate) fn simulation(&self, seed: u64) -> Simulation {
         let mut drone = DroneConfig {
             seed,
             profile: (self.profile)(),
@@ -119,7 +116,7 @@ impl Case {
         }
         Simulation {
             world: WorldConfig { drone, link, ..WorldConfig::default() },
-            pilot: VehicleConfig { law, navdata: self.navdata, ..VehicleConfig::default() },
+            pilot: VehicleConfig { navdata: self.navdata, ..VehicleConfig::default() },
             ..Simulation::default()
         }
     }

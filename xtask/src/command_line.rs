@@ -21,7 +21,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Fly plans on every airframe, by both laws, with many seeds, and report how well it went
+    /// Fly plans on every airframe, with many seeds, and report how well it went
     Fly {
         /// Seeds of each plan on each airframe, from 1
         #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]

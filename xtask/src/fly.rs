@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::cases::{CASES, LAWS};
+use crate::cases::CASES;
 use crate::job::{FlyError, Job, fly};
 use crate::parallel;
 use crate::plot;
@@ -18,10 +18,8 @@ pub(crate) fn run(
 ) -> Result<(String, Duration), FlyError> {
     let mut jobs = Vec::new();
     for (case, what) in CASES.iter().enumerate() {
-        for law in 0..LAWS.len() {
-            for plan in 0..what.plans.len() {
-                jobs.extend((1..=seeds).map(|seed| Job { case, law, plan, seed }));
-            }
+        for plan in 0..what.plans.len() {
+            jobs.extend((1..=seeds).map(|seed| Job { case, plan, seed }));
         }
     }
     let flown = parallel::map(&jobs, score)?;
@@ -40,8 +38,8 @@ pub(crate) fn run(
 fn score(job: Job) -> Result<Flown, FlyError> {
     let mut scorer = Scorer::new(CASES[job.case].plans[job.plan].stay);
     let flight = fly(job, |moment| scorer.watch(moment))?;
-    let Job { case, law, plan, seed } = job;
-    Ok(Flown { law, case, plan, seed, score: scorer.score(&flight) })
+    let Job { case, plan, seed } = job;
+    Ok(Flown { case, plan, seed, score: scorer.score(&flight) })
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use autopilot::Plan;
 use system_tests::sim::{Moment, SimulatedFlight, SimulationError};
 
-use crate::cases::{CASES, LAWS};
+use crate::cases::CASES;
 
 /// Failure of the measurement itself, not of a flight.
 #[derive(Debug, thiserror::Error)]
@@ -23,7 +23,6 @@ pub(crate) enum FlyError {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job {
     pub(crate) case: usize,
-    pub(crate) law: usize,
     pub(crate) plan: usize,
     pub(crate) seed: u64,
 }
@@ -33,5 +32,5 @@ pub(crate) fn fly(job: Job, watch: impl FnMut(&Moment)) -> Result<SimulatedFligh
     let plan = &case.plans[job.plan];
     let plan =
         Plan::parse(plan.name, plan.text).map_err(|error| FlyError::Plan(error.to_string()))?;
-    Ok(case.simulation(LAWS[job.law], job.seed).fly_watched(plan, watch)?)
+    Ok(case.simulation(job.seed).fly_watched(plan, watch)?)
 }

@@ -6,18 +6,15 @@ use nalgebra::Vector3;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use autopilot::vehicle::Law;
-
-use crate::cases::{CASES, LAWS};
+use crate::cases::CASES;
 use crate::job::{FlyError, Job, fly};
 use crate::table::Row;
 
-/// Colours of the tum and the cascade law, distinguishable in print too.
-const COLOURS: [RGBColor; 2] = [RGBColor(214, 96, 26), RGBColor(25, 95, 170)];
+const COLOUR: RGBColor = RGBColor(25, 95, 170);
 const FONT: &str = "sans-serif";
 
 /// The flight to draw: the airframe that differs most from the assumed one, with the plan that moves it most.
-const DRAWN: Job = Job { case: 1, law: 0, plan: 2, seed: 1 };
+const DRAWN: Job = Job { case: 1, plan: 2, seed: 1 };
 /// Seconds of it to draw.
 const DRAWN_S: f64 = 55.0;
 /// Ticks per point.
@@ -27,9 +24,8 @@ pub(crate) fn write_all(folder: &Path, rows: &[Row]) -> Result<(), FlyError> {
     std::fs::create_dir_all(folder)
         .map_err(|source| FlyError::Write { path: folder.to_owned(), source })?;
     write(&folder.join("figures.svg"), (900, 420), |area| figures(area, rows))?;
-    let traces = LAWS.iter().enumerate().map(|(law, _)| trace(Job { law, ..DRAWN }));
-    let traces = traces.collect::<Result<Vec<_>, _>>()?;
-    write(&folder.join("flight.svg"), (900, 620), |area| flight(area, &traces))
+    let moments = moments(DRAWN)?;
+    write(&folder.join("flight.svg"), (900, 620), |area| flight(area, &moments))
 }
 
 type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -51,13 +47,10 @@ fn write(
         })
 }
 
-/// Positions and targets of a flight.
-struct Trace {
-    /// Seconds since the first target, position, target.
-    moments: Vec<(f64, Vector3<f64>, Vector3<f64>)>,
-}
+/// Seconds since the first target, position, target.
+type Moment = (f64, Vector3<f64>, Vector3<f64>);
 
-fn trace(job: Job) -> Result<Trace, FlyError> {
+fn moments(job: Job) -> Result<Vec<Moment>, FlyError> {
     let mut moments = Vec::new();
     let mut first_s = None;
     fly(job, |moment| {
@@ -67,10 +60,10 @@ fn trace(job: Job) -> Result<Trace, FlyError> {
         let place = moment.truth.odometry_m.push(moment.truth.position_m.z);
         moments.push((since_s, place, Vector3::new(target.x_m, target.y_m, target.z_m)));
     })?;
-    Ok(Trace { moments })
+    Ok(moments)
 }
 
-/// Transit time and overshoot of each case, both laws side by side.
+/// Transit time and overshoot of each case.
 fn figures(area: &Drawing<'_>, rows: &[Row]) -> Drawn {
     let rows: Vec<&Row> = rows.iter().filter(|row| CASES[row.case].bound_s.is_some()).collect();
     let (left, right) = area.split_horizontally(450);
@@ -86,13 +79,12 @@ fn bars(
     most: f64,
     value: impl Fn(&Row) -> f64,
 ) -> Drawn {
-    let groups = rows.len() / LAWS.len();
     let mut chart = ChartBuilder::on(area)
         .caption(title, (FONT, 18))
         .margin(12)
         .x_label_area_size(58)
         .y_label_area_size(44)
-        .build_cartesian_2d(0.0..groups as f64, 0.0..most)?;
+        .build_cartesian_2d(0.0..rows.len() as f64, 0.0..most)?;
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -101,53 +93,26 @@ fn bars(
         .light_line_style(WHITE)
         .draw()?;
     for (index, row) in rows.iter().enumerate() {
-        let group = (index / LAWS.len()) as f64;
-        let from = group + 0.14 + 0.36 * row.law as f64;
+        let from = index as f64 + 0.2;
         let height = value(row).min(most);
-        chart.draw_series([Rectangle::new(
-            [(from, 0.0), (from + 0.34, height)],
-            COLOURS[row.law].filled(),
-        )])?;
+        chart
+            .draw_series([Rectangle::new([(from, 0.0), (from + 0.6, height)], COLOUR.filled())])?;
         chart.draw_series([Text::new(
             format!("{:.2}", value(row)),
             (from, height + most * 0.035),
             (FONT, 11),
         )])?;
-        if row.law == 0 {
-            let case = &CASES[row.case];
-            for (line, word) in [case.airframe, case.conditions].into_iter().enumerate() {
-                chart.draw_series([EmptyElement::at((group + 0.16, 0.0))
-                    + Text::new(word, (0, 8 + 15 * i32::try_from(line)?), (FONT, 13))])?;
-            }
+        let case = &CASES[row.case];
+        for (line, word) in [case.airframe, case.conditions].into_iter().enumerate() {
+            chart.draw_series([EmptyElement::at((from, 0.0))
+                + Text::new(word, (0, 8 + 15 * i32::try_from(line)?), (FONT, 13))])?;
         }
     }
-    legend(&mut chart)
-}
-
-fn legend<'a>(
-    chart: &mut ChartContext<
-        'a,
-        SVGBackend<'a>,
-        Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
-    >,
-) -> Drawn {
-    for (name, colour) in LAWS.map(Law::name).into_iter().zip(COLOURS) {
-        chart
-            .draw_series(std::iter::empty::<Rectangle<(f64, f64)>>())?
-            .label(name)
-            .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 14, y + 5)], colour.filled()));
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .label_font((FONT, 13))
-        .background_style(WHITE.mix(0.8))
-        .draw()?;
     Ok(())
 }
 
 /// Target and position over time: right, forward and up.
-fn flight(area: &Drawing<'_>, traces: &[Trace]) -> Drawn {
+fn flight(area: &Drawing<'_>, moments: &[Moment]) -> Drawn {
     let case = &CASES[DRAWN.case];
     let plan = case.plans[DRAWN.plan].name;
     let area = area.titled(
@@ -156,8 +121,7 @@ fn flight(area: &Drawing<'_>, traces: &[Trace]) -> Drawn {
     )?;
     let axes = [("right (m), dashed: the target", 0), ("up (m), dashed: the target", 2)];
     for ((title, axis), panel) in axes.into_iter().zip(area.split_evenly((2, 1))) {
-        let values = traces.iter().flat_map(|trace| &trace.moments);
-        let values = values.flat_map(|(_, place, target)| [place[axis], target[axis]]);
+        let values = moments.iter().flat_map(|(_, place, target)| [place[axis], target[axis]]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
         });
@@ -174,22 +138,12 @@ fn flight(area: &Drawing<'_>, traces: &[Trace]) -> Drawn {
             .light_line_style(WHITE)
             .bold_line_style(BLACK.mix(0.1))
             .draw()?;
-        for ((trace, colour), name) in traces.iter().zip(COLOURS).zip(LAWS.map(Law::name)) {
-            let shown = trace.moments.iter().step_by(DRAWN_TICKS);
-            let shown = shown.filter(|(since_s, ..)| *since_s <= DRAWN_S);
-            let targets = shown.clone().map(|(since_s, _, target)| (*since_s, target[axis]));
-            chart.draw_series(DashedLineSeries::new(targets, 4, 4, colour.mix(0.6).into()))?;
-            let places = shown.map(|(since_s, place, _)| (*since_s, place[axis]));
-            chart.draw_series(LineSeries::new(places, colour.stroke_width(2)))?.label(name).legend(
-                move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)),
-            );
-        }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .label_font((FONT, 13))
-            .background_style(WHITE.mix(0.8))
-            .draw()?;
+        let shown = moments.iter().step_by(DRAWN_TICKS);
+        let shown = shown.filter(|(since_s, ..)| *since_s <= DRAWN_S);
+        let targets = shown.clone().map(|(since_s, _, target)| (*since_s, target[axis]));
+        chart.draw_series(DashedLineSeries::new(targets, 4, 4, COLOUR.mix(0.6).into()))?;
+        let places = shown.map(|(since_s, place, _)| (*since_s, place[axis]));
+        chart.draw_series(LineSeries::new(places, COLOUR.stroke_width(2)))?;
     }
     Ok(())
 }

@@ -5,22 +5,20 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-use crate::cases::{CASES, LAWS};
+use crate::cases::CASES;
 use crate::score::{Score, mean};
 
 /// One flight with its scores.
 pub(crate) struct Flown {
-    pub(crate) law: usize,
     pub(crate) case: usize,
     pub(crate) plan: usize,
     pub(crate) seed: u64,
     pub(crate) score: Score,
 }
 
-/// Results of one law in one case: sums over the plans, means over the seeds.
+/// Results of one case: sums over the plans, means over the seeds.
 pub(crate) struct Row {
     pub(crate) case: usize,
-    pub(crate) law: usize,
     pub(crate) flights: usize,
     pub(crate) completed: usize,
     pub(crate) transit_s: f64,
@@ -32,14 +30,14 @@ pub(crate) struct Row {
 }
 
 pub(crate) fn rows(flown: &[Flown]) -> Vec<Row> {
-    let mut by_case: BTreeMap<(usize, usize), Vec<&Flown>> = BTreeMap::new();
+    let mut by_case: BTreeMap<usize, Vec<&Flown>> = BTreeMap::new();
     for flight in flown {
-        by_case.entry((flight.case, flight.law)).or_default().push(flight);
+        by_case.entry(flight.case).or_default().push(flight);
     }
-    by_case.into_iter().map(|((case, law), flights)| row(case, law, &flights)).collect()
+    by_case.into_iter().map(|(case, flights)| row(case, &flights)).collect()
 }
 
-fn row(case: usize, law: usize, flights: &[&Flown]) -> Row {
+fn row(case: usize, flights: &[&Flown]) -> Row {
     let all = |of: fn(&Score) -> Vec<f64>| -> Vec<f64> {
         flights.iter().flat_map(|flight| of(&flight.score)).collect()
     };
@@ -55,7 +53,6 @@ fn row(case: usize, law: usize, flights: &[&Flown]) -> Row {
     };
     Row {
         case,
-        law,
         flights: flights.len(),
         completed: flights.iter().filter(|flight| flight.score.completed).count(),
         transit_s,
@@ -68,11 +65,10 @@ fn row(case: usize, law: usize, flights: &[&Flown]) -> Row {
 
 pub(crate) fn table(rows: &[Row]) -> String {
     let mut text = format!(
-        "{:<10}{:<7}{:<9}{:<9}{:>10}{:>10}{:>9}{:>22}{:>9}{:>8}\n",
+        "{:<10}{:<7}{:<9}{:>10}{:>10}{:>9}{:>22}{:>9}{:>8}\n",
         "plans",
         "frame",
         "what",
-        "law",
         "completed",
         "transit s",
         "/ bound",
@@ -86,11 +82,10 @@ pub(crate) fn table(rows: &[Row]) -> String {
         let dash = || "-".to_owned();
         _ = writeln!(
             text,
-            "{:<10}{:<7}{:<9}{:<9}{:>10}{:>10}{:>9}{:>22}{:>9.3}{:>8.2}",
+            "{:<10}{:<7}{:<9}{:>10}{:>10}{:>9}{:>22}{:>9.3}{:>8.2}",
             if hovers { "hover" } else { "figures" },
             case.airframe,
             case.conditions,
-            LAWS[row.law].name(),
             format!("{}/{}", row.completed, row.flights),
             if hovers { dash() } else { format!("{:.1}", row.transit_s) },
             case.bound_s.map_or_else(dash, |bound_s| format!("{:.2}", row.transit_s / bound_s)),
@@ -111,7 +106,6 @@ pub(crate) fn write_csv(path: &Path, flown: &[Flown]) -> io::Result<()> {
     writer.write_record([
         "airframe",
         "conditions",
-        "law",
         "plan",
         "seed",
         "completed",
@@ -123,12 +117,11 @@ pub(crate) fn write_csv(path: &Path, flown: &[Flown]) -> io::Result<()> {
         "odometry_drift_m",
         "estimate_drift_m",
     ])?;
-    for Flown { law, case, plan, seed, score } in flown {
+    for Flown { case, plan, seed, score } in flown {
         let worst = score.overshoots_m.iter().copied().fold(0.0, f64::max);
         writer.write_record([
             CASES[*case].airframe.to_owned(),
             CASES[*case].conditions.to_owned(),
-            LAWS[*law].name().to_owned(),
             CASES[*case].plans[*plan].name.to_owned(),
             seed.to_string(),
             score.completed.to_string(),

@@ -57,9 +57,13 @@ impl Vehicle {
                 let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
                 let resists = [self.full_tilt_m_s2(), drag_1_s];
                 // Whether it gets there is measured: by what it was sent it should.
+                let estimate = self.flight.estimator.estimate();
                 let measured = Prediction {
+                    position_m: estimate.position_m,
+                    velocity_m_s: estimate.velocity_m_s,
+                    yaw_deg: estimate.yaw_deg,
                     disturbance_m_s2: state.disturbance_m_s2,
-                    ..self.measured_state()
+                    ..Prediction::default()
                 };
                 self.flight.saturation.watch(&demand, limit, &measured, &target, resists, step_s);
                 sent = Some(demand);

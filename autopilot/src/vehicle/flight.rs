@@ -52,11 +52,7 @@ impl Flight {
     pub(super) fn new(config: &VehicleConfig, begins: Duration) -> Self {
         Self {
             estimator: Estimator::new(config.estimator),
-            controller: PositionController::new(
-                config.law,
-                config.cascade,
-                config.estimator.limits,
-            ),
+            controller: PositionController::new(config.cascade, config.estimator.limits),
             agent: Agent::new(),
             activity: Activity::default(),
             safety: SafetyMonitor::new(config.limits),

@@ -45,7 +45,6 @@ use estimator::{EstimatorConfig, Prediction};
 pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use kinematics::Pose;
 use pid::CascadeConfig;
-pub use pid::Law;
 
 pub use self::cross_check::{CrossCheck, RestsOn};
 pub use self::decision::Decision;
@@ -104,13 +103,11 @@ pub struct VehicleConfig {
     pub gps: bool,
     /// Bit rate of the video that is asked for, in kbit/s; otherwise the drone keeps its own.
     pub video_kbit_s: Option<u32>,
-    /// Control law for approaching and holding poses.
-    pub law: Law,
     /// What a silent ground station means.
     pub station: StationPatience,
     /// Delays and airframe parameters assumed by the estimator.
     pub estimator: EstimatorConfig,
-    /// Gains and limits of [`Law::Cascade`].
+    /// Gains and limits of the control law.
     pub cascade: CascadeConfig,
 }
 
@@ -139,7 +136,6 @@ impl Default for VehicleConfig {
             navdata: NavdataRate::default(),
             gps: false,
             video_kbit_s: None,
-            law: Law::default(),
             station: StationPatience::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),

@@ -41,9 +41,8 @@ impl Vehicle {
         }
         self.offer_order(now);
         // The state is predicted once, so that everything below uses the same one.
-        let prediction = self.flight.estimator.predicted(now);
-        let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
-        self.feel_wind(prediction.disturbance_m_s2, step_s);
+        let state = self.state(now);
+        self.feel_wind(state.disturbance_m_s2, step_s);
         let tags = self.flight.estimator.tag_status(now);
         self.cross_check(now, tags.as_ref(), step_s);
         self.advance_setpoint(&state, step_s);
@@ -140,22 +139,7 @@ impl Vehicle {
 
     /// Predicted position and motion at `at`.
     pub(super) fn state(&self, at: Duration) -> Prediction {
-        if self.config.law.predicts() {
-            self.flight.estimator.predicted(at)
-        } else {
-            self.measured_state()
-        }
-    }
-
-    /// Position and motion at the last measurement.
-    pub(super) fn measured_state(&self) -> Prediction {
-        let estimate = self.flight.estimator.estimate();
-        Prediction {
-            position_m: estimate.position_m,
-            velocity_m_s: estimate.velocity_m_s,
-            yaw_deg: estimate.yaw_deg,
-            ..Prediction::default()
-        }
+        self.flight.estimator.predicted(at)
     }
 
     pub(super) fn pose(&self, now: Duration) -> Pose {

@@ -158,24 +158,6 @@ fn a_drone_that_lands_by_itself_is_let_land_and_that_is_said_once() {
     }
 }
 
-/// The law that does not predict flies by the last measurement.
-#[test]
-fn without_prediction_the_state_is_the_last_measurement() {
-    let config = VehicleConfig { law: Law::Tum, read_back: false, ..VehicleConfig::default() };
-    let mut bench = Bench::with(&config);
-    bench.rises();
-    bench.run(SECOND);
-    let estimate = *bench.vehicle.flight.estimator.estimate();
-    let later = bench.now + 10 * SECOND;
-    let state = bench.vehicle.state(later);
-    assert_eq!(state.position_m, estimate.position_m);
-    assert_eq!(state.velocity_m_s, estimate.velocity_m_s);
-    assert!(state.position_m.z > 0.5 && state.velocity_m_s.norm() > 0.0, "{state:?}");
-    assert!((state.yaw_deg - estimate.yaw_deg).abs() < 1e-9);
-    assert!(state.yaw_deg.abs() > 0.0);
-    assert!((bench.vehicle.pose(later).z_m - estimate.position_m.z).abs() < 1e-9);
-}
-
 #[test]
 fn the_drone_is_down_when_it_neither_flies_nor_says_that_it_has_not_landed() {
     let on_ground = |state: DroneState, control_state: Option<ControlState>| {
