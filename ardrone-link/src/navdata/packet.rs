@@ -1,8 +1,6 @@
 //! Packets: header, options, checksum.
 
-use bytes::{BufMut, BytesMut};
-use nom::number::complete::{le_u16, le_u32};
-use nom::{IResult, Parser};
+use bytes::{Buf as _, BufMut, BytesMut};
 
 use super::options::{Demo, Gps, NavdataOption, Time, VisionDetect};
 use super::state::DroneState;
@@ -88,14 +86,18 @@ impl<'a> Packet<'a> {
         if packet.len() > MAX_PACKET_BYTES {
             return Err(NavdataError::TooLong { bytes: packet.len() });
         }
-        let (options, (magic, state, sequence, vision)) =
-            parse((le_u32, le_u32, le_u32, le_u32), packet, "header")?;
+        let truncated = |part| move |_| NavdataError::Truncated { part };
+        let mut options = packet;
+        let mut word = || options.try_get_u32_le().map_err(truncated("header"));
+        let [magic, state, sequence, vision] = [word()?, word()?, word()?, word()?];
         if magic != MAGIC {
             return Err(NavdataError::Magic { found: magic });
         }
         let mut rest = options;
         loop {
-            let (_, (tag, size)) = parse((le_u16, le_u16), rest, "option header")?;
+            let mut header = rest;
+            let mut half = || header.try_get_u16_le().map_err(truncated("option header"));
+            let [tag, size] = [half()?, half()?];
             if usize::from(size) < OPTION_HEADER_BYTES || usize::from(size) > rest.len() {
                 return Err(NavdataError::OptionSize { tag, size });
             }
@@ -104,7 +106,8 @@ impl<'a> Packet<'a> {
                 rest = behind;
                 continue;
             }
-            let (_, found) = parse(le_u32, &option[OPTION_HEADER_BYTES..], "checksum")?;
+            let mut sum = &option[OPTION_HEADER_BYTES..];
+            let found = sum.try_get_u32_le().map_err(truncated("checksum"))?;
             let before = packet.len() - rest.len();
             let computed = checksum(&packet[..before]);
             if found != computed {
@@ -226,15 +229,6 @@ impl<'a> PacketWriter<'a> {
 /// The plain sum of all bytes before the checksum option.
 fn checksum(bytes: &[u8]) -> u32 {
     bytes.iter().fold(0_u32, |sum, byte| sum.wrapping_add(u32::from(*byte)))
-}
-
-fn parse<'a, P: Parser<&'a [u8], Error = nom::error::Error<&'a [u8]>>>(
-    mut parser: P,
-    bytes: &'a [u8],
-    part: &'static str,
-) -> Result<(&'a [u8], P::Output), NavdataError> {
-    let parsed: IResult<&[u8], P::Output> = parser.parse(bytes);
-    parsed.map_err(|_| NavdataError::Truncated { part })
 }
 
 #[cfg(test)]
