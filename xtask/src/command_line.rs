@@ -1,5 +1,6 @@
 //! The command line of `cargo xtask`.
 
+use std::error::Error;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -137,46 +138,8 @@ enum Command {
 pub(crate) fn main() -> ExitCode {
     #[allow(clippy::disallowed_methods, reason = "how long it takes is what a person sees")]
     let start = std::time::Instant::now();
-    let done = match Arguments::parse().command {
-        Command::Fly { seeds, csv, plots } => fly::run(seeds, csv.as_deref(), plots.as_deref())
-            .map(|(table, flown)| {
-                let flown_s = flown.as_secs_f64();
-                let times = flown_s / start.elapsed().as_secs_f64();
-                (format!("{table}{flown_s:.0} s flown, {times:.0} times as fast as real\n"), true)
-            })
-            .map_err(|error| error.to_string()),
-        Command::Campaign { flights, first } => {
-            campaign::run(flights, first).map_err(|error| error.to_string())
-        }
-        Command::Healthy { flights, first } => {
-            healthy::run(flights, first).map_err(|error| error.to_string())
-        }
-        Command::Sensors { seeds, random, first, only } => {
-            let numbers = first..first.saturating_add(random);
-            sensors::run(seeds, only.as_deref(), numbers).map_err(|error| error.to_string())
-        }
-        Command::Streams { streams, first } => {
-            streams::run(streams, first).map_err(|error| error.to_string())
-        }
-        Command::CrossChecks { flights, first } => {
-            cross_checks::run(flights, first).map_err(|error| error.to_string())
-        }
-        Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
-        Command::Mutants { all: true, shard, .. } => {
-            mutants::all(shard.as_deref()).map_err(|error| error.to_string())
-        }
-        Command::Mutants { flights, only, .. } => {
-            mutants::by_hand(flights, only.as_deref()).map_err(|error| error.to_string())
-        }
-        Command::Soak(arguments) => soak::run(&arguments).map_err(|error| error.to_string()),
-        Command::Verify { only_proofs } => {
-            verify::run(only_proofs).map_err(|error| error.to_string())
-        }
-        Command::Target => target::run().map_err(|error| error.to_string()),
-        Command::Mavlink(arguments) => mavlink::run(&arguments).map_err(|error| error.to_string()),
-    };
     // If printing fails there is nowhere else to report it.
-    match done {
+    match run(Arguments::parse().command, start) {
         Ok((table, good)) => {
             let seconds = start.elapsed().as_secs_f64();
             _ = writeln!(std::io::stdout(), "{table}done in {seconds:.1} s");
@@ -187,4 +150,30 @@ pub(crate) fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// What a command prints, and whether all was as it must be.
+fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Box<dyn Error>> {
+    Ok(match command {
+        Command::Fly { seeds, csv, plots } => {
+            let (table, flown) = fly::run(seeds, csv.as_deref(), plots.as_deref())?;
+            let flown_s = flown.as_secs_f64();
+            let times = flown_s / start.elapsed().as_secs_f64();
+            (format!("{table}{flown_s:.0} s flown, {times:.0} times as fast as real\n"), true)
+        }
+        Command::Campaign { flights, first } => campaign::run(flights, first)?,
+        Command::Healthy { flights, first } => healthy::run(flights, first)?,
+        Command::Sensors { seeds, random, first, only } => {
+            sensors::run(seeds, only.as_deref(), first..first.saturating_add(random))?
+        }
+        Command::Streams { streams, first } => streams::run(streams, first)?,
+        Command::CrossChecks { flights, first } => cross_checks::run(flights, first)?,
+        Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
+        Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,
+        Command::Mutants { flights, only, .. } => mutants::by_hand(flights, only.as_deref())?,
+        Command::Soak(arguments) => soak::run(&arguments)?,
+        Command::Verify { only_proofs } => verify::run(only_proofs)?,
+        Command::Target => target::run()?,
+        Command::Mavlink(arguments) => mavlink::run(&arguments)?,
+    })
 }
