@@ -3,11 +3,10 @@
 use std::time::Duration;
 
 use ardrone_link::at::{Command, Datagram, Motion, Ref};
+use autopilot::vehicle::TICK;
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
-/// Interval of orders.
-const TICK: Duration = Duration::from_millis(30);
 /// Time of hovering before the landing is ordered.
 const HOVERS: Duration = Duration::from_secs(2);
 /// Time after which every drone is down.

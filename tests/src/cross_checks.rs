@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::outcome::Outcome;
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{FlightEvent, SurveyedTag, TagConfig, VehicleConfig};
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -19,13 +19,12 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::sensors::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
+use crate::trial::{self, FOR_EVER};
 
 /// Far enough for a drone to get lost in.
-const FENCE: FlightLimits =
-    FlightLimits { radius_m: 30.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
+const FENCE: FlightLimits = FlightLimits { radius_m: 30.0, ..trial::FENCE };
 /// A velocity becomes wrong by then at the earliest: the drone has seen its tag.
 const EARLIEST: Duration = Duration::from_secs(12);
-const FOR_EVER: Duration = Duration::from_mins(30);
 /// Steady wind at most, in m/s.
 const WIND_M_S: f64 = 0.8;
 /// A drone that is this far from where it says is elsewhere.

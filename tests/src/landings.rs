@@ -4,18 +4,17 @@
 
 use std::time::Duration;
 
+use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{OperatorOrder, Place, TICK};
 use kinematics::Sticks;
-use mock_drone::WorldConfig;
-use mock_drone::firmware::Phase;
+use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use nalgebra::Vector2;
 
 use crate::plan;
-use crate::sim::{Simulation, SimulationError};
+use crate::sim::SimulationError;
+use crate::trial::{self, HOLD, HOLDS_AT as ORDERED_AT, Must, Trial};
 
-/// By then the drone holds its position, 1.3 m high.
-const ORDERED_AT: Duration = Duration::from_secs(12);
 /// Time from the begin of the first gap to the order, and step of the other gaps' begins.
 const BEFORE: Duration = Duration::from_millis(500);
 const LATER: Duration = Duration::from_millis(100);
@@ -33,36 +32,38 @@ const LANDS_WITHIN: Duration = Duration::from_secs(8);
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
 pub fn forgotten() -> Result<Vec<String>, SimulationError> {
-    let mut found = Vec::new();
-    for landing in gaps().into_iter().chain(orders()) {
-        found.extend(landing.forgotten()?);
-    }
-    Ok(found)
+    trial::broken(gaps().into_iter().chain(orders()))
 }
 
-/// A landing with a disturbance around the order.
-struct Landing {
+/// A landing with a disturbance around the order, which must be complete when it is due.
+fn landing(
     what: String,
     scenario: Scenario,
     orders: Vec<(Duration, OperatorOrder)>,
-    /// Deadline for being down.
     due: Duration,
+) -> Trial {
+    let mut trial = Trial::new(what, HOLD, Profile::rec, scenario)
+        .and(Must::BeUp { at: ORDERED_AT.saturating_sub(TICK) })
+        .and(Must::BeDown { by: due });
+    trial.simulation.pilot.limits = FlightLimits::default();
+    trial.simulation.orders = orders;
+    trial
 }
 
 /// Datagrams are lost in one direction, or in both, for a while.
-fn gaps() -> Vec<Landing> {
+fn gaps() -> Vec<Trial> {
     let mut landings = Vec::new();
     for direction in [Direction::Both, Direction::Up, Direction::Down] {
         for length in LENGTHS {
             for index in 0..BEGINNINGS {
                 let begins = ORDERED_AT.saturating_sub(BEFORE) + LATER * index;
                 let outage = Action::Outage(direction, length);
-                landings.push(Landing {
-                    what: format!("a gap {direction:?} from {begins:?} for {length:?}"),
-                    scenario: Scenario::default().and(When::SinceStart(begins), outage),
-                    orders: vec![(ORDERED_AT, OperatorOrder::Land)],
-                    due: ORDERED_AT.max(begins + length) + LANDS_WITHIN,
-                });
+                landings.push(landing(
+                    format!("a landing, a gap {direction:?} from {begins:?} for {length:?}"),
+                    Scenario::default().and(When::SinceStart(begins), outage),
+                    vec![(ORDERED_AT, OperatorOrder::Land)],
+                    ORDERED_AT.max(begins + length) + LANDS_WITHIN,
+                ));
             }
         }
     }
@@ -70,7 +71,7 @@ fn gaps() -> Vec<Landing> {
 }
 
 /// Another order comes in nearly the same tick. In a breeze the agent flies the first part of the descent.
-fn orders() -> Vec<Landing> {
+fn orders() -> Vec<Trial> {
     let mut landings = Vec::new();
     let others = [
         OperatorOrder::Hold,
@@ -86,39 +87,14 @@ fn orders() -> Vec<Landing> {
                 let at = (ORDERED_AT + TICK * tick).saturating_sub(TICK * TICKS_AROUND);
                 let mut orders = vec![(ORDERED_AT, OperatorOrder::Land), (at, other.clone())];
                 orders.sort_by_key(|(at, _)| *at);
-                landings.push(Landing {
-                    what: format!("{} at {at:?}, {wind_m_s} m/s of wind", other.name()),
-                    scenario: Scenario::default().and(When::SinceStart(Duration::ZERO), wind),
+                landings.push(landing(
+                    format!("a landing, {} at {at:?}, {wind_m_s} m/s of wind", other.name()),
+                    Scenario::default().and(When::SinceStart(Duration::ZERO), wind),
                     orders,
-                    due: ORDERED_AT + LANDS_WITHIN,
-                });
+                    ORDERED_AT + LANDS_WITHIN,
+                ));
             }
         }
     }
     landings
-}
-
-impl Landing {
-    /// Description of the failure, if the drone was not down in time for good.
-    fn forgotten(self) -> Result<Option<String>, SimulationError> {
-        let Self { what, scenario, orders, due } = self;
-        let simulation = Simulation {
-            world: WorldConfig { scenario, ..WorldConfig::default() },
-            orders,
-            aftermath: Duration::from_secs(3),
-            ..Simulation::default()
-        };
-        let mut flew = false;
-        let mut late = None;
-        let text = "takeoff\ngoto 0 0 0.5 0\nsetStayTime 60\ngoto 0 0 0.5 0\nland\n";
-        let flown = simulation.fly_watched(plan(text), |moment| {
-            let lands = moment.truth.phase == Phase::Landed;
-            flew |= moment.now < ORDERED_AT && moment.truth.phase == Phase::Flying;
-            if moment.now >= due && !lands {
-                late.get_or_insert(moment.truth.phase);
-            }
-        })?;
-        let phase = late.or((!flew).then_some(flown.final_truth.phase));
-        Ok(phase.map(|phase| format!("a landing was forgotten after {what}: {phase:?}")))
-    }
 }

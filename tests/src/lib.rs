@@ -10,6 +10,7 @@ pub mod rules;
 pub mod sensors;
 pub mod sim;
 pub mod streams;
+mod trial;
 
 use autopilot::Plan;
 use autopilot::vehicle::Waypoint;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
 use autopilot::Plan;
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{OperatorOrder, Place, VehicleConfig};
 use kinematics::Sticks;
 use mock_drone::airframe::{GRAVITY_M_S2, Profile, ThrustLaw};
@@ -21,9 +21,8 @@ use super::station::Station;
 use super::tags::Tags;
 use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::Simulation;
+use crate::trial::FENCE;
 
-/// Radius of the campaign's fence.
-const RADIUS_M: f64 = 4.0;
 /// Time after the flight in which an uncontrolled drone must land by itself.
 const AFTERMATH: Duration = Duration::from_secs(45);
 
@@ -48,12 +47,7 @@ impl Flight {
     pub(super) fn of(seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let random = &mut random;
-        let limits = FlightLimits {
-            radius_m: RADIUS_M,
-            ceiling_m: random.random_range(1.6..3.0),
-            floor_m: 0.3,
-            z_origin: ZOrigin::Hover,
-        };
+        let limits = FlightLimits { ceiling_m: random.random_range(1.6..3.0), ..FENCE };
         let Model { name: airframe, profile } = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
         let strongest_m_s = strongest_wind_m_s(&profile());
         let mut drone = drone(random, seed, profile(), strongest_m_s, &limits);

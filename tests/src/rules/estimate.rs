@@ -9,13 +9,11 @@ use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
 use nalgebra::Vector2;
 
-use super::must::Must;
-use super::{FENCE, HOLD, HOLDS_AT, Trial};
 use crate::plan;
 use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
 use crate::sim::SimulationError;
+use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 
-const FOR_EVER: Duration = Duration::from_mins(5);
 /// A turn before a long flight, which shows whether the world has turned with the drone.
 const TURN: &str = "takeoff\ngoto 0 3 0.5 0\ngoto 0 3 0.5 175\ngoto 0 -3 0.5 175\nland\n";
 

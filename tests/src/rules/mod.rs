@@ -5,29 +5,9 @@
 
 mod estimate;
 mod monitor;
-mod must;
 
-use std::time::Duration;
-
-use autopilot::Plan;
-use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::vehicle::VehicleConfig;
-use mock_drone::airframe::Profile;
-use mock_drone::firmware::Phase;
-use mock_drone::scenario::Scenario;
-use mock_drone::{DroneConfig, WorldConfig};
-
-use self::must::Must;
-use crate::sim::{Simulation, SimulationError};
-
-/// The fence of all flights.
-const FENCE: FlightLimits =
-    FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
-/// The drone holds its position above the start by then, and until the end of the plan.
-const HOLDS_AT: Duration = Duration::from_secs(12);
-const HOLD: &str = "takeoff\ngoto 0 0 0.5 0\nsetStayTime 60\ngoto 0 0 0.5 0\nland\n";
-/// Time after the flight in which an uncontrolled drone must land by itself.
-const AFTERMATH: Duration = Duration::from_secs(20);
+use crate::sim::SimulationError;
+use crate::trial;
 
 /// Descriptions of all flights that did not end as they must.
 ///
@@ -51,55 +31,5 @@ pub fn broken() -> Result<Vec<String>, SimulationError> {
         estimate::steps_in_a_turn()?,
         estimate::turns_in_the_wind(),
     ];
-    let mut found = Vec::new();
-    for trial in families.into_iter().flatten() {
-        found.extend(trial.broken()?);
-    }
-    Ok(found)
-}
-
-/// A flight and the rules for its true course.
-struct Trial {
-    what: String,
-    plan: String,
-    simulation: Simulation,
-    must: Vec<Must>,
-}
-
-impl Trial {
-    /// A flight of `plan` in still air, with an airframe and a scenario.
-    fn new(what: String, plan: &str, profile: fn() -> Profile, scenario: Scenario) -> Self {
-        let drone = DroneConfig { profile: profile(), ..DroneConfig::default() };
-        let simulation = Simulation {
-            world: WorldConfig { drone, scenario, ..WorldConfig::default() },
-            pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },
-            aftermath: AFTERMATH,
-            ..Simulation::default()
-        };
-        Self { what, plan: plan.to_owned(), simulation, must: Vec::new() }
-    }
-
-    fn and(mut self, must: Must) -> Self {
-        self.must.push(must);
-        self
-    }
-
-    /// Description of the first violation, if any.
-    fn broken(self) -> Result<Option<String>, SimulationError> {
-        let Self { what, plan, simulation, mut must } = self;
-        let plan = Plan::parse_within("rules", &plan, &simulation.pilot.limits)
-            .unwrap_or_else(|error| panic!("{error}"));
-        let mut found = None;
-        let flown = simulation.fly_watched(plan, |moment| {
-            for must in &mut must {
-                let violation = must.violated(moment);
-                found = found.take().or(violation);
-            }
-        })?;
-        let phase = flown.final_truth.phase;
-        if !matches!(phase, Phase::Landed | Phase::Emergency) {
-            found.get_or_insert_with(|| format!("{phase:?} at the end"));
-        }
-        Ok(found.map(|found| format!("{what}: {found}")))
-    }
+    trial::broken(families.into_iter().flatten())
 }

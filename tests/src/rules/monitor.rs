@@ -8,14 +8,10 @@ use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault};
 
-use super::must::Must;
-use super::{FENCE, HOLD, HOLDS_AT, Trial};
 use crate::plan;
 use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::SimulationError;
-
-/// Longer than any of these flights.
-const FOR_EVER: Duration = Duration::from_mins(5);
+use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 
 /// Drones that another pilot has left above the ceiling: they are taken over, and told to hold where they are. No
 /// order leads above the ceiling, and the drone's own limit of altitude stops a climb, but does not bring it down.

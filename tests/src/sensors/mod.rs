@@ -9,8 +9,7 @@ use std::fmt;
 use std::time::Duration;
 
 use autopilot::Plan;
-use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::vehicle::VehicleConfig;
+use autopilot::vehicle::{TICK, VehicleConfig};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -23,6 +22,7 @@ use rand_chacha::ChaCha8Rng;
 pub use random::{RandomFlight, random};
 
 use crate::sim::{Simulation, SimulationError};
+use crate::trial::{FENCE, FOR_EVER};
 use crate::{alone, place_in_navdata_frame};
 
 /// Largest allowed distance outside the fence after a single fault, in metres.
@@ -35,16 +35,11 @@ pub const OWN_MARGIN_M: f64 = 0.3;
 /// Longest allowed contact with the floor.
 pub const MOST_SCRAPING: Duration = Duration::from_secs(3);
 
-const FENCE: FlightLimits =
-    FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
 /// The step of each plan in which a sensor fails: its second `goto`, after its setting.
 const STEP: usize = 3;
-/// The fault does not end.
-const FOR_EVER: Duration = Duration::from_mins(30);
 /// Hover height after take-off, in metres.
 const HOVER_M: f64 = 0.85;
 const AFTERMATH: Duration = Duration::from_secs(30);
-const TICK: Duration = Duration::from_millis(30);
 
 /// A published model of the airframe.
 #[derive(Debug, Clone, Copy)]

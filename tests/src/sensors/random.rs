@@ -14,8 +14,9 @@ use mock_drone::{Quantity, SensorFault};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AIRFRAMES, Excursion, FOR_EVER, GAINS, STEP, Situation};
+use super::{AIRFRAMES, Excursion, GAINS, STEP, Situation};
 use crate::sim::SimulationError;
+use crate::trial::FOR_EVER;
 
 /// Smallest error of a velocity that shows between two packets, or compared with rest at the take-off.
 const SHOWS_M_S: f64 = 0.6;

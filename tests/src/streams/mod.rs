@@ -8,7 +8,7 @@ use std::fmt;
 use std::time::Duration;
 
 use autopilot::Plan;
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{Operator, OperatorOrder, Station, VehicleConfig};
 use mock_drone::firmware::Phase;
 use mock_drone::sensors::SensorModel;
@@ -21,10 +21,10 @@ use self::orders::{Moving, direction, give, nonsense, present, rate, seconds, st
 
 use crate::sensors::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
+use crate::trial;
 
 /// The fence of all flights.
-const FENCE: FlightLimits =
-    FlightLimits { radius_m: 4.0, ceiling_m: 2.5, floor_m: 0.3, z_origin: ZOrigin::Hover };
+const FENCE: FlightLimits = FlightLimits { ceiling_m: 2.5, ..trial::FENCE };
 /// The drone holds its position above the start by then.
 const BEGINS: Duration = Duration::from_secs(11);
 /// Time after the stream in which the drone comes to rest, before it is landed.

@@ -16,10 +16,10 @@ const WRONG_FOR: Duration = Duration::from_secs(1);
 
 /// A rule, with what it remembers of the flight.
 #[derive(Debug, Clone)]
-pub(super) enum Must {
-    /// In the air at this time, because a flight that is refused shows nothing.
+pub(crate) enum Must {
+    /// Flying at this time, because a flight that is refused shows nothing.
     BeUp { at: Duration },
-    /// On the ground from this time on.
+    /// Landed from this time on.
     BeDown { by: Duration },
     /// Never further than this from the start, horizontally, beyond the error of healthy sensors if they are all
     /// that the pilot has.
@@ -33,24 +33,24 @@ pub(super) enum Must {
 }
 
 impl Must {
-    pub(super) fn stay_above(m: f64, since: Duration, most: Duration) -> Self {
+    pub(crate) fn stay_above(m: f64, since: Duration, most: Duration) -> Self {
         Self::StayAbove { m, since, most, lower_for: Duration::ZERO }
     }
 
-    pub(super) fn be_honest(since: Duration) -> Self {
+    pub(crate) fn be_honest(since: Duration) -> Self {
         Self::BeHonest { since, error_m: None, wrong_for: Duration::ZERO }
     }
 
     /// Description of the violation in this tick, if any.
-    pub(super) fn violated(&mut self, moment: &Moment) -> Option<String> {
+    pub(crate) fn violated(&mut self, moment: &Moment) -> Option<String> {
         let Moment { now, truth, status, .. } = moment;
         let at_s = now.as_secs_f64();
         let is_up = matches!(truth.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing);
         match self {
-            Self::BeUp { at } => (*now >= *at && *now < *at + TICK && !is_up)
-                .then(|| format!("not in the air after {at_s:.1} s, {:?}", truth.phase)),
-            Self::BeDown { by } => (now >= by && is_up)
-                .then(|| format!("in the air after {at_s:.1} s, {:?}", truth.phase)),
+            Self::BeUp { at } => (*now >= *at && *now < *at + TICK && truth.phase != Phase::Flying)
+                .then(|| format!("not flying after {at_s:.1} s, {:?}", truth.phase)),
+            Self::BeDown { by } => (now >= by && truth.phase != Phase::Landed)
+                .then(|| format!("not down after {at_s:.1} s, {:?}", truth.phase)),
             Self::StayNear { m, by_sensors } => {
                 let place_m = if *by_sensors { truth.odometry_m } else { truth.position_m.xy() };
                 let away_m = place_m.norm();
