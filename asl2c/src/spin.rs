@@ -4,7 +4,7 @@ use std::hash::{BuildHasher as _, RandomState};
 use std::path::Path;
 use std::process::{Command, Output};
 
-use translator::{Happening, Model, Promise};
+use translator::{CounterexampleStep, DeclaredProperty, Model};
 
 /// The model checker.
 pub const SPIN: &str = "spin";
@@ -15,7 +15,7 @@ pub enum Verdict {
     /// The property holds in every environment.
     Holds,
     /// The property fails: the shortest counterexample.
-    Fails(Vec<Happening>),
+    Fails(Vec<CounterexampleStep>),
     /// The search did not finish, with the reason.
     Undecided(String),
 }
@@ -32,7 +32,7 @@ impl Verdict {
     }
 
     /// The shortest counterexample; empty unless the property fails.
-    pub fn counterexample(&self) -> &[Happening] {
+    pub fn counterexample(&self) -> &[CounterexampleStep] {
         match self {
             Self::Fails(way) => way,
             Self::Holds | Self::Undecided(_) => &[],
@@ -77,7 +77,7 @@ const MEGABYTES: u32 = 2048;
 pub(crate) fn check(
     model: &Model,
     numbers: &[usize],
-) -> Result<Vec<(Promise, Verdict)>, SpinError> {
+) -> Result<Vec<(DeclaredProperty, Verdict)>, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
     let key = prepare(model, folder, Compiler::for_searches(numbers.len()))?;
@@ -96,7 +96,7 @@ pub(crate) fn check(
     let verdicts = numbers.iter().zip(searched);
     verdicts
         .map(|(number, found)| {
-            let promise = &model.properties[number - 1];
+            let property = &model.properties[number - 1];
             let verdict = match found {
                 Found::Nothing => Verdict::Holds,
                 Found::NoEnd(said) => Verdict::Undecided(said),
@@ -105,7 +105,7 @@ pub(crate) fn check(
                     Verdict::Fails(model.explain(&run(*number, &IN_BREADTH, "-r")?))
                 }
             };
-            Ok((promise.clone(), verdict))
+            Ok((property.clone(), verdict))
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Checks which properties of an agent hold in every environment.
 
-use translator::{Model, Promise};
+use translator::{DeclaredProperty, Model};
 
 use crate::spin::{self, SpinError, Verdict};
 
@@ -27,7 +27,7 @@ pub enum VerifyError {
 #[non_exhaustive]
 pub struct Checked {
     /// The property.
-    pub property: Promise,
+    pub property: DeclaredProperty,
     /// Result of the check.
     pub verdict: Verdict,
 }
@@ -63,7 +63,7 @@ fn numbers(model: &Model, only: &[&str]) -> Result<Vec<usize>, VerifyError> {
         return Ok((1..=model.properties.len()).collect());
     }
     let number = |name: &&str| {
-        let index = model.properties.iter().position(|promise| promise.name == *name);
+        let index = model.properties.iter().position(|property| property.name == *name);
         index
             .map(|index| index + 1)
             .ok_or_else(|| VerifyError::Unknown { name: (*name).to_owned() })

@@ -184,8 +184,14 @@ fn foreign_log(
         .chunk_size(Some(4 << 20))
         .emit_message_indexes(false);
     let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
-    let metadata =
-        [("format", "4"), ("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
+    let metadata = [
+        ("format", "5"),
+        ("start_ns", "0"),
+        ("plan", "p"),
+        ("drone", "d"),
+        ("version", "0"),
+        ("vehicle", "v"),
+    ];
     let mut metadata: std::collections::BTreeMap<String, String> =
         metadata.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
     metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());

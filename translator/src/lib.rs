@@ -54,8 +54,8 @@ pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
 pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise};
 pub use format::format;
 use gather::gather;
-pub use model::{Happening, Model};
-pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, STEPS};
+pub use model::{CounterexampleStep, Model};
+pub use obligations::{ANSWERS, CALLS, DeclaredProperty, HARNESS, Obligations, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
 pub use reserved::{is_c_word, is_library as is_c_library};
@@ -100,13 +100,13 @@ impl ParsedConfiguration {
         Source { name: &self.name, text: &self.text }
     }
 
-    fn promises(&self) -> Vec<Promise> {
+    fn declared_properties(&self) -> Vec<DeclaredProperty> {
         let properties = self.configuration.properties.iter();
         properties
             .map(|property| {
                 let text = self.text.get(property.span.clone()).unwrap_or_default();
                 let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
-                Promise {
+                DeclaredProperty {
                     name: property.name.text.clone(),
                     requirements: property.requirements.clone(),
                     formula: formula.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -232,7 +232,7 @@ pub fn obligations(
     configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Obligations, TranslateError> {
-    let properties = configuration.promises();
+    let properties = configuration.declared_properties();
     // An agent that cannot be translated cannot be proved either.
     let wanted = configuration.configuration.settings.instance;
     let (mut program, _) = check(configuration, agent_text, wanted)?;
@@ -349,7 +349,7 @@ pub fn model(
     configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Model, TranslateError> {
-    let properties = configuration.promises();
+    let properties = configuration.declared_properties();
     let wanted = configuration.configuration.settings.instance;
     let (program, _) = check(configuration, agent_text, wanted)?;
     Ok(Model::new(program, properties))

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Promise;
+use crate::DeclaredProperty;
 use crate::backend::promela::{MARK, PROPERTY, Waiting, emit, events};
 use crate::program::{Program, trigger_text};
 
@@ -18,14 +18,14 @@ use crate::program::{Program, trigger_text};
 #[must_use = "the model has to be checked"]
 pub struct Model {
     /// The properties, in the order of their numbers.
-    pub properties: Vec<Promise>,
+    pub properties: Vec<DeclaredProperty>,
     program: Program,
 }
 
 /// A step of a counterexample, in the agent's terms.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Happening {
+pub struct CounterexampleStep {
     /// Nesting depth: 0 for the environment and for steps, 1 for plans, 2 for the actions of plans.
     pub depth: usize,
     /// The line of the agent's source, if there is one.
@@ -34,14 +34,14 @@ pub struct Happening {
     pub text: String,
 }
 
-impl Happening {
+impl CounterexampleStep {
     /// A step of a counterexample.
     pub fn new(depth: usize, line: Option<usize>, text: String) -> Self {
         Self { depth, line, text }
     }
 }
 
-impl fmt::Display for Happening {
+impl fmt::Display for CounterexampleStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let indentation = "  ".repeat(self.depth);
         match self.line {
@@ -52,7 +52,7 @@ impl fmt::Display for Happening {
 }
 
 impl Model {
-    pub(crate) fn new(program: Program, properties: Vec<Promise>) -> Self {
+    pub(crate) fn new(program: Program, properties: Vec<DeclaredProperty>) -> Self {
         Self { properties, program }
     }
 
@@ -77,10 +77,10 @@ impl Model {
     }
 
     /// Translates the replay of a counterexample to the agent's terms.
-    pub fn explain(&self, replay: &str) -> Vec<Happening> {
+    pub fn explain(&self, replay: &str) -> Vec<CounterexampleStep> {
         let lines = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
         let lines: Vec<Vec<&str>> = lines.map(|line| line.split_whitespace().collect()).collect();
-        let mut happenings: Vec<Happening> = Vec::new();
+        let mut happenings: Vec<CounterexampleStep> = Vec::new();
         let mut steps = 0_usize;
         let mut idle_from = None;
         for (index, words) in lines.iter().enumerate() {
@@ -101,15 +101,15 @@ impl Model {
                 None if handles => format!("step {steps}"),
                 None => format!("step {steps}: no event is pending"),
             };
-            happenings.push(Happening { depth: 0, line: None, text });
+            happenings.push(CounterexampleStep { depth: 0, line: None, text });
             let alone = lines.get(index + 1).is_none_or(|next| next.first() == Some(&"step"));
             idle_from = (!handles && alone).then(|| idle_from.unwrap_or(steps));
         }
         happenings
     }
 
-    fn happening(&self, what: &str, numbers: &[usize]) -> Option<Happening> {
-        let at = |depth, line, text| Some(Happening { depth, line, text });
+    fn happening(&self, what: &str, numbers: &[usize]) -> Option<CounterexampleStep> {
+        let at = |depth, line, text| Some(CounterexampleStep { depth, line, text });
         let first = numbers.first().copied();
         match what {
             "raise" => at(0, None, format!("the environment raises {}", self.event(first?)?)),

@@ -30,13 +30,13 @@ pub struct Obligations {
     pub(crate) fixed: BTreeMap<usize, String>,
     pub(crate) moments: Vec<Moment>,
     /// The properties: each has an assertion `property NAME`.
-    pub properties: Vec<Promise>,
+    pub properties: Vec<DeclaredProperty>,
 }
 
 /// A property as declared.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Promise {
+pub struct DeclaredProperty {
     /// Its name.
     pub name: String,
     /// The requirements that it implements.
@@ -106,7 +106,7 @@ mod tests {
     fn a_proof_has_an_environment_an_invariant_and_its_properties() {
         let configuration = parse_configuration("a.conf", LAMP).unwrap();
         let obligations = obligations(&configuration, "+!light <- on.").unwrap();
-        let formulas = obligations.properties.iter().map(|promise| promise.formula.as_str());
+        let formulas = obligations.properties.iter().map(|property| property.formula.as_str());
         assert!(formulas.eq(["at_most_one(on)", "within(1, +!light, on)"]));
         assert_eq!(obligations.properties[0].requirements, ["R-1"]);
         let harness = &obligations.files.last().unwrap().text;

@@ -41,7 +41,7 @@ const SETTINGS_FILE: &str = "pilot.toml";
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
 /// Version of the message format.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 /// Name of the metadata record.
 const FLIGHT: &str = "flight";
 

@@ -150,16 +150,15 @@ impl Log {
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
         let start = Duration::from_nanos(start);
-        // The first logs had no names.
-        let vehicle = flight.get("vehicle").map(|name| name.parse()).transpose();
-        let vehicle = vehicle
+        let vehicle = metadata("vehicle")?
+            .parse()
             .map_err(|_| LogError::Foreign { missing: "vehicle that is a name".to_owned() })?;
         let mut entries = content.entries;
         for (at, _) in &mut entries {
             *at = at.saturating_sub(start);
         }
         Ok(Self {
-            vehicle: vehicle.unwrap_or_default(),
+            vehicle,
             plan_name: metadata("plan")?,
             plan: text(PLAN_FILE)?,
             settings: text(SETTINGS_FILE)?,

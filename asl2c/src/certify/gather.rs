@@ -281,18 +281,18 @@ fn proved(
         found = search(&proof, configuration, &session, cbmc, folder.path(), limits)?;
     }
     let mut files = Vec::new();
-    let properties = proof.properties.iter().map(|(promise, holds)| {
-        let searched = found
-            .iter()
-            .find(|searched| !holds && searched.property.as_deref() == Some(promise.name.as_str()));
+    let properties = proof.properties.iter().map(|(property, holds)| {
+        let searched = found.iter().find(|searched| {
+            !holds && searched.property.as_deref() == Some(property.name.as_str())
+        });
         PropertyEvidence {
-            name: promise.name.clone(),
-            requirements: promise.requirements.clone(),
-            formula: promise.formula.clone(),
+            name: property.name.clone(),
+            requirements: property.requirements.clone(),
+            formula: property.formula.clone(),
             verdict: if *holds {
                 Verdict::Proved
             } else {
-                verdict(searched, &promise.name, &mut files)
+                verdict(searched, &property.name, &mut files)
             },
         }
     });

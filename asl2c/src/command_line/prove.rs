@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use translator::{ParsedConfiguration, Promise, ROUNDED, obligations};
+use translator::{DeclaredProperty, ParsedConfiguration, ROUNDED, obligations};
 
 use super::arguments::Prove;
 use super::validate::to_replay;
@@ -34,9 +34,9 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     check_current(&agent, &own, output, None)?;
     obligations.files.extend(own);
-    for promise in &obligations.properties {
+    for property in &obligations.properties {
         // Not after the proof, whose result would be lost.
-        check_script(output, &script_name(&asked.configuration, &promise.name))?;
+        check_script(output, &script_name(&asked.configuration, &property.name))?;
     }
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let folder = tempfile::tempdir()
@@ -106,12 +106,12 @@ fn as_text(
     asked: &Prove,
 ) -> String {
     let mut text = String::new();
-    for (promise, holds) in &proof.properties {
-        let tags = match promise.requirements.as_slice() {
+    for (property, holds) in &proof.properties {
+        let tags = match property.requirements.as_slice() {
             [] => String::new(),
             tags => format!(" [{}]", tags.join(", ")),
         };
-        let Promise { name, formula, .. } = promise;
+        let DeclaredProperty { name, formula, .. } = property;
         let of_this = |saved: &&Saved| saved.searched.property.as_deref() == Some(name.as_str());
         if *holds && !asked.quiet {
             _ = writeln!(text, "{name}{tags}: holds in every environment");
@@ -185,14 +185,15 @@ fn as_json(proof: &Proof, saved: &[Saved]) -> String {
         let script = saved.and_then(written);
         (named, trace, script)
     };
-    let properties = proof.properties.iter().map(|(promise, holds)| {
+    let properties = proof.properties.iter().map(|(property, holds)| {
         let mut of_this = saved.iter();
-        let of_this = of_this.find(|saved| saved.searched.property.as_ref() == Some(&promise.name));
+        let of_this =
+            of_this.find(|saved| saved.searched.property.as_ref() == Some(&property.name));
         let (named, trace, script) = verdict(*holds, of_this);
         json!({
-            "name": promise.name,
-            "requirements": promise.requirements,
-            "formula": promise.formula,
+            "name": property.name,
+            "requirements": property.requirements,
+            "formula": property.formula,
             "verdict": named,
             "trace": trace,
             "script": script,

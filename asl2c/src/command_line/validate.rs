@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use judged_c::judge;
 use serde_json::json;
-use translator::{Happening, ROUNDED, comparison};
+use translator::{CounterexampleStep, ROUNDED, comparison};
 
 use super::arguments::{Validate, is_json};
 use super::difference::{Search, Way};
@@ -22,7 +22,7 @@ use crate::written::{WriteError, check_script, write_script};
 /// A difference, what the agent does on the way to it, and its script.
 struct Shown {
     way: Way,
-    story: Vec<Happening>,
+    story: Vec<CounterexampleStep>,
     path: Result<PathBuf, WriteError>,
 }
 
@@ -116,7 +116,7 @@ fn show(
     session: &Session,
     configuration: &Path,
     folder: &Path,
-) -> (Vec<Happening>, Result<PathBuf, WriteError>) {
+) -> (Vec<CounterexampleStep>, Result<PathBuf, WriteError>) {
     let mut text = format!("// The C differs: {}\n", difference.said);
     for line in &difference.lines {
         // Writing to a string cannot fail.

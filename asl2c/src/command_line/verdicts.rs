@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
-use translator::{Model, Promise};
+use translator::{DeclaredProperty, Model};
 
 use super::NOT_CHECKED;
 use crate::spin::Verdict;
@@ -48,12 +48,12 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
     let mut text = String::new();
     let (mut holds, mut fails) = (false, false);
     // Writing to a string cannot fail.
-    for Checked { property: promise, verdict } in checked {
-        let tags = match promise.requirements.as_slice() {
+    for Checked { property, verdict } in checked {
+        let tags = match property.requirements.as_slice() {
             [] => String::new(),
             tags => format!(" [{}]", tags.join(", ")),
         };
-        let head = format!("{}{tags}", promise.name);
+        let head = format!("{}{tags}", property.name);
         match verdict {
             Verdict::Holds => {
                 holds = true;
@@ -64,7 +64,7 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
             }
             Verdict::Fails(happenings) => {
                 fails = true;
-                let Promise { formula, .. } = promise;
+                let DeclaredProperty { formula, .. } = property;
                 _ = writeln!(text, "{head}: DOES NOT HOLD\n  {formula}");
                 _ = writeln!(text, "  counterexample ({}):", model.input());
                 for happening in happenings {
@@ -85,16 +85,16 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
 fn json(checked: &[Checked]) -> String {
     let properties: Vec<Value> = checked
         .iter()
-        .map(|Checked { property: promise, verdict }| {
+        .map(|Checked { property, verdict }| {
             let named = match verdict {
                 Verdict::Holds => "holds",
                 Verdict::Fails(_) => "fails",
                 Verdict::Undecided(_) => "undecided",
             };
             json!({
-                "name": promise.name,
-                "requirements": promise.requirements,
-                "formula": promise.formula,
+                "name": property.name,
+                "requirements": property.requirements,
+                "formula": property.formula,
                 "verdict": named,
                 "trace": verdict.counterexample(),
             })

@@ -22,7 +22,7 @@ use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use translator::{Obligations, Promise};
+use translator::{DeclaredProperty, Obligations};
 
 pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
@@ -98,7 +98,7 @@ pub enum ProveError {
 #[non_exhaustive]
 pub struct Proof {
     /// Each property, and whether it holds in every environment and for any number of steps.
-    pub properties: Vec<(Promise, bool)>,
+    pub properties: Vec<(DeclaredProperty, bool)>,
     /// Run-time errors that could not be excluded, in CBMC's words.
     pub run_time: Vec<String>,
     /// The candidates that are invariant.
@@ -156,7 +156,7 @@ pub fn prove(
     let tried = tried(obligations, plan.known);
     let properties = obligations.properties.iter();
     let expected: Vec<String> =
-        properties.map(|promise| format!("property {}", promise.name)).collect();
+        properties.map(|property| format!("property {}", property.name)).collect();
     let check = |function: &str, chosen: &[usize], checks| {
         let invariant = obligations.invariant(chosen);
         write(folder, &invariant.name, &invariant.text)?;
@@ -178,7 +178,7 @@ pub fn prove(
     }
     let holds = |name: &str| !open.iter().any(|failure| failure.property() == Some(name));
     let properties = obligations.properties.iter();
-    let properties = properties.map(|promise| (promise.clone(), holds(&promise.name))).collect();
+    let properties = properties.map(|property| (property.clone(), holds(&property.name))).collect();
     let others = open.iter().filter(|failure| failure.property().is_none());
     let run_time = others.map(|failure| failure.said.clone()).collect();
     let invariant = chosen.into_iter().map(|index| candidates[index].clone()).collect();

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use translator::{Happening, ParsedConfiguration};
+use translator::{CounterexampleStep, ParsedConfiguration};
 
 use super::cbmc::{Cbmc, Failure};
 use super::shrink::shortest;
@@ -44,7 +44,7 @@ impl Searched {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Found {
     /// A confirmed counterexample: the actions of the environment, and the agent's steps.
-    Way(Way, Vec<Happening>),
+    Way(Way, Vec<CounterexampleStep>),
     /// A trace of CBMC that the reference interpreter does not confirm.
     Unconfirmed(Way),
     /// There is no counterexample with at most this number of transitions.
@@ -142,7 +142,7 @@ fn confirm(way: Way, failure: &Failure, session: &Session) -> Found {
 }
 
 /// The steps of a counterexample.
-fn story_of(way: &Way, session: &Session) -> Vec<Happening> {
+fn story_of(way: &Way, session: &Session) -> Vec<CounterexampleStep> {
     let mut session = session.clone();
     let mut story = Vec::new();
     let mut idle_from = None;
@@ -155,7 +155,7 @@ fn story_of(way: &Way, session: &Session) -> Vec<Happening> {
             // Consecutive steps without an event share one line.
             story.pop();
             let text = format!("steps {first} to {}: {IDLE}", session.steps());
-            story.push(Happening::new(0, None, text));
+            story.push(CounterexampleStep::new(0, None, text));
             continue;
         } else {
             idle_from = Some(session.steps());

@@ -7,7 +7,7 @@ use diagnostic::Diagnostic;
 use translator::configuration::{Configuration, ExternalTrigger};
 use translator::interpreter::{Interpreter, Value, trigger, with_values};
 use translator::types::TypeKind;
-use translator::{Happening, ParsedConfiguration, TranslateError};
+use translator::{CounterexampleStep, ParsedConfiguration, TranslateError};
 
 use super::monitor::Monitors;
 use super::script::{Statement, parse_line, words};
@@ -120,10 +120,10 @@ impl Session {
     }
 
     /// Executes a line, and returns it as steps of a counterexample.
-    pub(crate) fn happenings(&mut self, line: &str) -> Vec<Happening> {
+    pub(crate) fn happenings(&mut self, line: &str) -> Vec<CounterexampleStep> {
         let parsed = parse_line(line, &self.configuration);
         let Ok(shown) = self.execute(line) else { return Vec::new() };
-        let at = |depth, text: String| Happening::new(depth, None, text);
+        let at = |depth, text: String| CounterexampleStep::new(depth, None, text);
         match parsed.unwrap_or_default().first() {
             Some(Statement::Raise(event, values)) => {
                 let event = trigger(event.operator, event.kind, &event.name.text, values);

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use translator::Happening;
+use translator::CounterexampleStep;
 use translator::interpreter::{Environment, Value};
 use translator::types::{CType, TypeKind};
 
@@ -34,7 +34,7 @@ pub(super) struct World {
     /// Number of calls of each basic action or function in the step.
     pub(super) calls: BTreeMap<String, u32>,
     /// Events of the step, with their causes.
-    pub(super) story: Vec<Happening>,
+    pub(super) story: Vec<CounterexampleStep>,
 }
 
 impl World {
@@ -78,7 +78,7 @@ impl Environment for World {
         }
     }
 
-    fn story(&mut self) -> Option<&mut Vec<Happening>> {
+    fn story(&mut self) -> Option<&mut Vec<CounterexampleStep>> {
         Some(&mut self.story)
     }
 }

@@ -1,4 +1,4 @@
-//! `asl2c validate --c` believes nothing of the environment that the guide does not promise: any setter may be called at
+//! `asl2c validate --c` believes nothing of the environment that the guide does not property: any setter may be called at
 //! any time, any number of times; memory holds anything before `init()`; queries come in any order.
 
 use std::time::Duration;

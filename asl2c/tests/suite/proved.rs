@@ -169,7 +169,7 @@ fn agent(random: &mut Random) -> String {
 }
 
 /// A property, as written and as checked in runs.
-enum Promise {
+enum DeclaredProperty {
     Count(&'static str, &'static str),
     Within(u32, Cause, &'static str),
     OnlyAfter(&'static str, &'static str),
@@ -184,7 +184,7 @@ enum Cause {
     Low(i128),
 }
 
-impl Promise {
+impl DeclaredProperty {
     fn random(random: &mut Random) -> Self {
         let action = random.of(&COUNTED);
         match random.below(9) {
@@ -238,12 +238,14 @@ struct Monitor {
 }
 
 impl Monitor {
-    fn raised(&mut self, promise: &Promise, goal: &str) {
-        match promise {
-            Promise::Within(steps, Cause::Raised(cause), _) if *cause == goal && self.due == 0 => {
+    fn raised(&mut self, property: &DeclaredProperty, goal: &str) {
+        match property {
+            DeclaredProperty::Within(steps, Cause::Raised(cause), _)
+                if *cause == goal && self.due == 0 =>
+            {
                 self.due = *steps;
             }
-            Promise::OnlyAfter(_, event) if *event == goal => self.allowed = true,
+            DeclaredProperty::OnlyAfter(_, event) if *event == goal => self.allowed = true,
             _ => {}
         }
     }
@@ -251,7 +253,7 @@ impl Monitor {
     /// A step has ended; `level` is that of its beginning, `calls` are its calls.
     fn stepped(
         &mut self,
-        promise: &Promise,
+        property: &DeclaredProperty,
         level: Option<i128>,
         calls: &BTreeMap<String, u32>,
         lost: bool,
@@ -259,8 +261,8 @@ impl Monitor {
         let count = |name: &str| -> u32 {
             members(name).iter().filter_map(|action| calls.get(*action)).sum()
         };
-        match promise {
-            Promise::Count(bound, action) => {
+        match property {
+            DeclaredProperty::Count(bound, action) => {
                 let calls = count(action);
                 self.broken |= match *bound {
                     "never" => calls > 0,
@@ -269,7 +271,7 @@ impl Monitor {
                     _ => calls != 1,
                 };
             }
-            Promise::Within(steps, cause, action) => {
+            DeclaredProperty::Within(steps, cause, action) => {
                 if let Cause::Low(limit) = cause {
                     let low = level.is_some_and(|level| level <= *limit);
                     self.due = if !low {
@@ -292,8 +294,10 @@ impl Monitor {
                     self.due = *steps;
                 }
             }
-            Promise::OnlyAfter(action, _) => self.broken |= count(action) > 0 && !self.allowed,
-            Promise::AllHandled => self.broken |= lost,
+            DeclaredProperty::OnlyAfter(action, _) => {
+                self.broken |= count(action) > 0 && !self.allowed;
+            }
+            DeclaredProperty::AllHandled => self.broken |= lost,
         }
     }
 }
@@ -331,7 +335,7 @@ fn runs(
     random: &mut Random,
     configuration: &str,
     agent: &str,
-    promises: &[Promise],
+    promises: &[DeclaredProperty],
 ) -> Option<Vec<bool>> {
     let parsed =
         parse_configuration("a.conf", configuration).unwrap_or_else(|error| panic!("{error}"));
@@ -357,7 +361,7 @@ fn runs(
                         .is_ok()
                     {
                         let pairs = monitors.iter_mut().zip(promises);
-                        pairs.for_each(|(monitor, promise)| monitor.raised(promise, goal));
+                        pairs.for_each(|(monitor, property)| monitor.raised(property, goal));
                     }
                 }
                 2 => {
@@ -370,8 +374,8 @@ fn runs(
                     let level = world.level;
                     interpreter.next_step(&mut world);
                     let lost = interpreter.unhandled_events() != before;
-                    for (monitor, promise) in monitors.iter_mut().zip(promises) {
-                        monitor.stepped(promise, level, &world.calls, lost);
+                    for (monitor, property) in monitors.iter_mut().zip(promises) {
+                        monitor.stepped(property, level, &world.calls, lost);
                     }
                 }
             }
@@ -412,11 +416,12 @@ fn nothing_that_a_run_breaks_is_proved() {
     let (mut checked, mut proved, mut broken_in_runs, mut undecided) = (0, 0, 0, 0);
     while checked < agents {
         let text = agent(&mut random);
-        let promises: Vec<Promise> = (0..5).map(|_| Promise::random(&mut random)).collect();
+        let promises: Vec<DeclaredProperty> =
+            (0..5).map(|_| DeclaredProperty::random(&mut random)).collect();
         let properties: String = promises
             .iter()
             .enumerate()
-            .map(|(n, promise)| format!("p{n}: {}; ", promise.text()))
+            .map(|(n, property)| format!("p{n}: {}; ", property.text()))
             .collect();
         let events = random.of(&["inbox = 1;", "inbox = 2;", "max_events = 1;"]);
         let preemptive = random.of(&["", "+!light;"]);
@@ -431,11 +436,11 @@ fn nothing_that_a_run_breaks_is_proved() {
         checked += 1;
         let verdicts = verdicts(&configuration, &text);
         assert_eq!(verdicts.len(), promises.len());
-        for ((promise, broken), verdict) in promises.iter().zip(broken).zip(verdicts) {
+        for ((property, broken), verdict) in promises.iter().zip(broken).zip(verdicts) {
             assert!(
                 !(broken && verdict == "holds"),
                 "{} is proved, and a run breaks it\n{configuration}\n{text}",
-                promise.text()
+                property.text()
             );
             proved += u32::from(verdict == "holds");
             undecided += u32::from(verdict == "undecided");

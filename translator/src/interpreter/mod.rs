@@ -24,7 +24,7 @@ use crate::configuration::Configuration;
 use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};
 use crate::syntax::parse;
 use crate::types::CType;
-use crate::{Happening, ParsedConfiguration};
+use crate::{CounterexampleStep, ParsedConfiguration};
 use diagnostic::Span;
 
 /// The environment of an interpreted agent.
@@ -34,7 +34,7 @@ pub trait Environment {
     /// Calls a basic action or function; functions return a value of `result`.
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value>;
     /// Log of each step: events, plans that apply or do not, and their actions. `None` disables it.
-    fn story(&mut self) -> Option<&mut Vec<Happening>> {
+    fn story(&mut self) -> Option<&mut Vec<CounterexampleStep>> {
         None
     }
     /// Called with each plan that is chosen, and with the rest of one that waits each time it is tried: generated C

@@ -1,7 +1,7 @@
 //! Log of a step in the agent's terms, and the limit of its length.
 
 use super::{Environment, Event, Interpreter, Key, Origin, Value};
-use crate::Happening;
+use crate::CounterexampleStep;
 use crate::program::trigger_text;
 use crate::syntax::ast::{Atom, Formula, Operator, Plan, TriggerKind};
 
@@ -125,7 +125,7 @@ impl Interpreter {
         let story = environment.story()?;
         // The effects of a call are below the formula that calls.
         let depth = (2 * self.limit.depth.max(1) - 1) + further;
-        story.push(Happening { depth, line, text: text() });
+        story.push(CounterexampleStep { depth, line, text: text() });
         Some(story.len() - 1)
     }
 

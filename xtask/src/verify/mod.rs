@@ -102,7 +102,7 @@ impl Findings {
 
     /// Whether every property was proved, on the model and on the C.
     fn hold(&self) -> bool {
-        let mut names = self.c.properties.iter().map(|(promise, _)| &promise.name);
+        let mut names = self.c.properties.iter().map(|(property, _)| &property.name);
         self.c.holds()
             && names
                 .all(|name| self.on_model(name).is_some_and(|checked| checked.verdict.is_proved()))

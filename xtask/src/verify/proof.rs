@@ -12,7 +12,7 @@ use super::{Agent, VerifyError, in_file, write};
 pub(super) fn broken(proof: &Proof) -> Vec<&str> {
     let properties = proof.properties.iter().filter(|(_, holds)| !holds);
     let run_time = (!proof.run_time.is_empty()).then_some(RUN_TIME);
-    properties.map(|(promise, _)| promise.name.as_str()).chain(run_time).collect()
+    properties.map(|(property, _)| property.name.as_str()).chain(run_time).collect()
 }
 
 /// Proves what can be proved of an agent; `folder` is for generated files, and `change` may spoil them.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use translator::Promise;
+use translator::DeclaredProperty;
 
 use super::coverage::Coverage;
 use super::tools::Versions;
@@ -21,21 +21,21 @@ pub(super) struct Report {
 
 /// A row of the table of properties.
 struct Row<'a> {
-    promise: &'a Promise,
+    property: &'a DeclaredProperty,
     on_model: &'static str,
     on_c: &'static str,
 }
 
 impl Findings {
     fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.c.properties.iter().map(|(promise, holds)| {
-            let on_model = match self.on_model(&promise.name) {
+        self.c.properties.iter().map(|(property, holds)| {
+            let on_model = match self.on_model(&property.name) {
                 None => "NOT CHECKED",
                 Some(checked) if checked.verdict.is_proved() => "holds",
                 Some(checked) if checked.verdict.is_refuted() => "FAILS",
                 Some(_) => "not decided",
             };
-            Row { promise, on_model, on_c: if *holds { "proved" } else { "NOT PROVED" } }
+            Row { property, on_model, on_c: if *holds { "proved" } else { "NOT PROVED" } }
         })
     }
 
@@ -50,7 +50,7 @@ pub(super) fn proved(autopilot: &Findings) -> String {
         String::from("The shipped agent, in every environment, for any number of steps\n");
     // Writing to a string cannot fail.
     for row in autopilot.rows() {
-        let name = &row.promise.name;
+        let name = &row.property.name;
         _ = writeln!(text, "  {name:<28}model: {:<10}C: {}", row.on_model, row.on_c);
     }
     _ = writeln!(text, "  {:<46}C: {}", "no error at run time", autopilot.run_time());
@@ -93,8 +93,8 @@ impl Report {
     pub(super) fn markdown(&self) -> String {
         let mut text = String::from(INTRODUCTION);
         text += "| property | requirement | must hold | model | C |\n|---|---|---|---|---|\n";
-        for Row { promise, on_model, on_c } in self.autopilot.rows() {
-            let Promise { name, requirements, formula, .. } = promise;
+        for Row { property, on_model, on_c } in self.autopilot.rows() {
+            let DeclaredProperty { name, requirements, formula, .. } = property;
             let requirements = requirements.join(", ");
             _ = writeln!(text, "| `{name}` | {requirements} | `{formula}` | {on_model} | {on_c} |");
         }
@@ -139,8 +139,8 @@ impl Report {
     fn compare(&self, text: &mut String) {
         *text += PAPER_INTRODUCTION;
         *text += "| property | must hold | model | C |\n|---|---|---|---|\n";
-        for Row { promise, on_model, on_c } in self.paper.rows() {
-            let Promise { name, formula, .. } = promise;
+        for Row { property, on_model, on_c } in self.paper.rows() {
+            let DeclaredProperty { name, formula, .. } = property;
             _ = writeln!(text, "| `{name}` | `{formula}` | {on_model} | {on_c} |");
         }
         _ = writeln!(text, "| no error at run time | | | {} |", self.paper.run_time());
