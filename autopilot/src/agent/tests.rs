@@ -410,7 +410,8 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
 
 #[test]
 fn a_blind_descent_does_not_wait_with_an_empty_battery() {
-    for (percent, command) in [(13, AgentCommand::Hover), (12, AgentCommand::Land)] {
+    let lands = LANDING_BATTERY_PERCENT;
+    for (percent, command) in [(lands + 1, AgentCommand::Hover), (lands, AgentCommand::Land)] {
         let here = Pose { z_m: 2.0, ..TARGET };
         let mut bench = Bench::new(Percepts { wind: 0.7, pose: Some(here), ..HOVERING });
         assert!(bench.agent.achieve_land());

@@ -1,5 +1,6 @@
 //! Parameters: numbers that exist. Limits of safety can be read, not written.
 
+use autopilot::agent::LANDING_BATTERY_PERCENT;
 use mavlink_core::types::CharArray;
 
 use super::{Autopilot, Config};
@@ -41,6 +42,7 @@ impl Parameters {
         let limits = &config.limits;
         let (low_m, high_m) = (limits.floor_m as f32, limits.ceiling_m as f32);
         let radius_m = limits.radius_m as f32;
+        let landing_percent = f64::from(LANDING_BATTERY_PERCENT) as f32;
         let fastest_m_s = config.max_speed_m_s as f32;
         let fixed = |name, value| Parameter { name, value, range: None };
         let free = |name, value, low, high| Parameter { name, value, range: Some((low, high)) };
@@ -51,7 +53,7 @@ impl Parameters {
             fixed("FENCE_FLOOR", low_m),
             fixed("FENCE_CEILING", high_m),
             fixed("BAT_WARN_PCT", 20.0),
-            fixed("BAT_LAND_PCT", 12.0),
+            fixed("BAT_LAND_PCT", landing_percent),
             fixed("GCS_TELL_S", 3.0),
             fixed("GCS_HOLD_S", seconds(config.station.hold_after)),
             fixed("GCS_LAND_S", seconds(config.station.land_after)),
@@ -71,8 +73,8 @@ impl Parameters {
                 // 5: land.
                 fixed("GF_ACTION", 5.0),
                 fixed("BAT_LOW_THR", 0.20),
-                fixed("BAT_CRIT_THR", 0.12),
-                fixed("BAT_EMERGEN_THR", 0.12),
+                fixed("BAT_CRIT_THR", landing_percent / 100.0),
+                fixed("BAT_EMERGEN_THR", landing_percent / 100.0),
                 // 2: land.
                 fixed("COM_LOW_BAT_ACT", 2.0),
                 fixed("COM_DL_LOSS_T", seconds(config.station.hold_after)),

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use autopilot::agent::LANDING_BATTERY_PERCENT;
 use autopilot::vehicle::{LandingReason, Phase, Status, Trust};
 use kinematics::Pose;
 use mavlink_core::types::CharArray;
@@ -245,8 +246,10 @@ impl View<'_> {
             current_battery: -1,
             battery_remaining: i8::try_from(percent).unwrap_or(100),
             charge_state: match percent {
-                0..=12 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
-                13..=20 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+                0..=LANDING_BATTERY_PERCENT => {
+                    MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL
+                }
+                ..=20 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
                 _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
             },
             ..BATTERY_STATUS_DATA::default()
