@@ -14,8 +14,8 @@ use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{
     FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig, VehicleName,
 };
-use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{Tag27, WorldConfig};
 use serde_json::{Value, json};
 use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
@@ -286,7 +286,18 @@ fn keeps(rules: &Value, value: &Value, path: &str) {
 /// Other tools read the log too: JSON with schemas, some of them Foxglove's.
 #[test]
 fn each_topic_has_a_schema_that_its_messages_keep() {
-    let (_, file) = recorded(SQUARE, &crate::tag_log::with_tags());
+    // With all that a drone can tell.
+    let mut simulation = crate::tag_log::with_tags();
+    simulation.pilot.gps = true;
+    simulation.world.drone.tag_27 = Tag27::Gps;
+    let (_, file) = recorded(SQUARE, &simulation);
+    assert!(
+        Log::read(&file)
+            .unwrap()
+            .entries
+            .iter()
+            .any(|(_, entry)| matches!(entry, Entry::Decoded(decoded) if decoded.gps.is_some()))
+    );
     let mut topics = std::collections::BTreeMap::new();
     for message in mcap::MessageStream::new(&file).unwrap() {
         let message = message.unwrap();
@@ -466,9 +477,9 @@ fn a_log_of_another_format_is_refused_with_the_version_that_wrote_it() {
         drop(writer);
         Log::read(&file.into_inner()).unwrap_err().to_string()
     };
-    for unknown in ["5", "3", "0", "-1", "two"] {
+    for unknown in ["6", "4", "0", "-1", "two"] {
         let text = refused(unknown);
         assert!(text.contains(&format!("format is {unknown}")) && text.contains("9.8.7"), "{text}");
     }
-    assert!(refused("4").contains("has no"), "known, and the rest is missing");
+    assert!(refused("5").contains("has no"), "known, and the rest is missing");
 }
