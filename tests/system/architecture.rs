@@ -29,7 +29,6 @@ const MAY_USE: [(&str, &[&str]); 14] = [
             "kinematics",
             "mavlink-vehicle",
             "mock-drone",
-            "pid",
         ],
     ),
     (

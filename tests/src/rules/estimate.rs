@@ -31,7 +31,11 @@ pub(super) fn led_to_the_floor() -> Vec<Trial> {
             let scenario = Scenario::default().and(When::SinceStart(HOLDS_AT), drift);
             let what = format!("{name} led to the floor for {drifts:?}");
             let trial = Trial::new(what, LOW, profile, scenario);
-            trials.push(trial.and(Must::stay_above(LOW_M, HOLDS_AT + drifts, MOST)));
+            trials.push(trial.and(Must::BeUp { at: HOLDS_AT + drifts }).and(Must::stay_above(
+                LOW_M,
+                HOLDS_AT + drifts,
+                MOST,
+            )));
         }
     }
     trials
