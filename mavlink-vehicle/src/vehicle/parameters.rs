@@ -6,6 +6,9 @@ use mavlink_core::types::CharArray;
 use super::{Autopilot, Config};
 use crate::dialect::{MavMessage, PARAM_VALUE_DATA};
 
+/// From this charge on stations are warned.
+pub(super) const LOW_BATTERY_PERCENT: u32 = 20;
+
 /// `MAV_PARAM_TYPE_REAL32`: clients disagree on how integers travel in a float, and on floats they agree.
 const REAL32: u8 = 9;
 
@@ -42,7 +45,9 @@ impl Parameters {
         let limits = &config.limits;
         let (low_m, high_m) = (limits.floor_m as f32, limits.ceiling_m as f32);
         let radius_m = limits.radius_m as f32;
-        let landing_percent = f64::from(LANDING_BATTERY_PERCENT) as f32;
+        let percent = |percent: u32| f64::from(percent) as f32;
+        let (low_percent, landing_percent) =
+            (percent(LOW_BATTERY_PERCENT), percent(LANDING_BATTERY_PERCENT));
         let fastest_m_s = config.max_speed_m_s as f32;
         let fixed = |name, value| Parameter { name, value, range: None };
         let free = |name, value, low, high| Parameter { name, value, range: Some((low, high)) };
@@ -52,7 +57,7 @@ impl Parameters {
             fixed("FENCE_RADIUS", radius_m),
             fixed("FENCE_FLOOR", low_m),
             fixed("FENCE_CEILING", high_m),
-            fixed("BAT_WARN_PCT", 20.0),
+            fixed("BAT_WARN_PCT", low_percent),
             fixed("BAT_LAND_PCT", landing_percent),
             fixed("GCS_TELL_S", 3.0),
             fixed("GCS_HOLD_S", seconds(config.station.hold_after)),
@@ -72,7 +77,7 @@ impl Parameters {
                 fixed("GF_MAX_VER_DIST", high_m),
                 // 5: land.
                 fixed("GF_ACTION", 5.0),
-                fixed("BAT_LOW_THR", 0.20),
+                fixed("BAT_LOW_THR", low_percent / 100.0),
                 fixed("BAT_CRIT_THR", landing_percent / 100.0),
                 fixed("BAT_EMERGEN_THR", landing_percent / 100.0),
                 // 2: land.

@@ -8,6 +8,7 @@ use kinematics::Pose;
 use mavlink_core::types::CharArray;
 
 use super::modes::Mode;
+use super::parameters::LOW_BATTERY_PERCENT;
 use super::schedule::HEARTBEAT;
 use super::{Autopilot, MavlinkVehicle, To};
 use crate::dialect::{
@@ -245,12 +246,12 @@ impl View<'_> {
             voltages: [u16::MAX; 10],
             current_battery: -1,
             battery_remaining: i8::try_from(percent).unwrap_or(100),
-            charge_state: match percent {
-                0..=LANDING_BATTERY_PERCENT => {
-                    MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL
-                }
-                ..=20 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
-                _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
+            charge_state: if percent <= LANDING_BATTERY_PERCENT {
+                MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL
+            } else if percent <= LOW_BATTERY_PERCENT {
+                MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW
+            } else {
+                MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK
             },
             ..BATTERY_STATUS_DATA::default()
         })
