@@ -1,20 +1,29 @@
 //! What runs beside the ticks of all vehicles of a program: one tokio runtime, and one set of signals.
+//!
+//! The signals have a thread of their own: whatever clients do to those of the runtime, Ctrl-C lands.
 
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::task::{Context, Poll};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use rustix::process::Signal as Os;
+use signal_hook::consts::{
+    SIGALRM, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM,
+    SIGXCPU, SIGXFSZ,
+};
+use signal_hook::iterator::{Handle as SignalsHandle, Signals};
 use tokio::runtime::Handle;
-use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
 
-/// One that waits for the system must not hold up the signals.
+/// Threads of the runtime: one that waits for the system holds up nobody else.
 const WORKERS: usize = 2;
+/// All signals that request the exit.
+const ENDS: [i32; 12] = [
+    SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGIO, SIGVTALRM, SIGPROF,
+    SIGXCPU, SIGSYS,
+];
 /// Time for pending output after the flights have ended.
 const GRACE: Duration = Duration::from_secs(1);
 /// Interval at which the end of the flights is checked; each orders its landing first.
@@ -37,9 +46,12 @@ pub struct Runtime {
     ending: Ending,
 }
 
-/// Taken when this is dropped.
 #[derive(Debug)]
-struct Threads(Option<tokio::runtime::Runtime>);
+struct Threads {
+    /// Taken when this is dropped.
+    runtime: Option<tokio::runtime::Runtime>,
+    signals: SignalsHandle,
+}
 
 impl Runtime {
     /// Starts the threads. From now on signals do not end the process: they end the flights.
@@ -53,12 +65,18 @@ impl Runtime {
             .enable_all()
             .build()?;
         let ending = Ending::default();
-        let signals = {
-            let _inside = runtime.enter();
-            EndSignals::new()
-        };
-        drop(runtime.spawn(count_signals(signals, ending.clone(), second)));
-        Ok(Self { threads: Arc::new(Threads(Some(runtime))), ending })
+        let signals = Signals::new([0_i32; 0])?;
+        if !ENDS.iter().all(|signal| signals.add_signal(*signal).is_ok()) {
+            tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
+        }
+        // With SIGXFSZ caught, exceeding the file size limit ends the log, not the process. If it cannot be, it ends both.
+        _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
+        let threads = Threads { runtime: Some(runtime), signals: signals.handle() };
+        let counted = ending.clone();
+        std::thread::Builder::new()
+            .name("signals".to_owned())
+            .spawn(move || count(signals, &counted, second))?;
+        Ok(Self { threads: Arc::new(threads), ending })
     }
 
     /// For a flight: how often the program was told to end.
@@ -68,10 +86,15 @@ impl Runtime {
 
     /// For what uses sockets before it runs.
     pub(crate) fn handle(&self) -> &Handle {
-        self.threads.0.as_ref().expect("it is taken only when they are dropped").handle()
+        self.threads.runtime.as_ref().expect("it is taken only when they are dropped").handle()
     }
 
-    /// Runs something until its [`Task`] is dropped; it is told so by the receiver.
+    /// Runs something until what is returned is dropped, which does not wait.
+    pub(crate) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> Background {
+        Background { running: self.handle().spawn(task), _runtime: self.clone() }
+    }
+
+    /// Runs something until its [`Task`] is ended; it is told so by the receiver.
     pub(crate) fn run<F: Future<Output: Send> + Send + 'static>(
         &self,
         name: &'static str,
@@ -85,14 +108,28 @@ impl Runtime {
 
 impl Drop for Threads {
     fn drop(&mut self) {
-        if let Some(runtime) = self.0.take() {
+        self.signals.close();
+        if let Some(runtime) = self.runtime.take() {
             // The end does not wait for a simulation or a report.
             runtime.shutdown_background();
         }
     }
 }
 
-/// Something that runs until this is dropped, which waits for its end.
+/// Something that runs until this is dropped. A busy runtime holds up nobody who drops it.
+#[derive(Debug)]
+pub(crate) struct Background {
+    running: JoinHandle<()>,
+    _runtime: Runtime,
+}
+
+impl Drop for Background {
+    fn drop(&mut self) {
+        self.running.abort();
+    }
+}
+
+/// Something that has to do something at its end.
 #[derive(Debug)]
 pub(crate) struct Task<T> {
     name: &'static str,
@@ -102,7 +139,7 @@ pub(crate) struct Task<T> {
 }
 
 impl<T> Task<T> {
-    /// Ends it; `None` if it has panicked, or was ended before.
+    /// Ends it, and waits for its end; `None` if it has panicked, or was ended before.
     pub(crate) fn end(&mut self) -> Option<T> {
         if let Some(end) = self.end.take() {
             // It may have ended by itself.
@@ -113,12 +150,6 @@ impl<T> Task<T> {
             tracing::error!("internal error: {} panicked", self.name);
         }
         result.ok()
-    }
-}
-
-impl<T> Drop for Task<T> {
-    fn drop(&mut self) {
-        self.end();
     }
 }
 
@@ -164,75 +195,28 @@ impl Drop for UnderWay {
     }
 }
 
-/// Never returns.
-async fn count_signals(mut signals: EndSignals, ending: Ending, second: SecondSignal) {
-    // With SIGXFSZ caught, exceeding the file size limit ends the log, not the process.
-    let _too_large = signal(SignalKind::from_raw(Os::XFSZ.as_raw()));
-    loop {
-        signals.next().await;
+/// Counts the signals until the end of the runtime.
+fn count(mut signals: Signals, ending: &Ending, second: SecondSignal) {
+    for _ in signals.forever() {
         let is_first = ending.0.signals.fetch_add(1, Ordering::Relaxed) == 0;
         let is_over = ending.0.under_way.load(Ordering::Relaxed) == 0;
         if second == SecondSignal::Exits && (!is_first || is_over) {
-            drop(tokio::spawn(exit(ending.clone())));
+            exit(ending);
         }
     }
 }
 
 /// Exits the process after the flights.
 #[expect(clippy::exit, reason = "what is blocked cannot be asked to end")]
-async fn exit(ending: Ending) {
+fn exit(ending: &Ending) {
     while ending.0.under_way.load(Ordering::Relaxed) > 0 {
-        tokio::time::sleep(LOOK).await;
+        std::thread::sleep(LOOK);
     }
     let outcome = if ending.0.begun.load(Ordering::Relaxed) > 0 {
-        tokio::time::sleep(GRACE).await;
+        std::thread::sleep(GRACE);
         Outcome::LeftLanding
     } else {
         Outcome::Interrupted
     };
     std::process::exit(outcome.exit_status().into());
-}
-
-/// All signals that request the exit.
-#[derive(Debug)]
-struct EndSignals(Vec<Signal>);
-
-impl EndSignals {
-    /// Starts listening. Must be called within a tokio runtime.
-    fn new() -> Self {
-        let ends = [
-            SignalKind::interrupt(),
-            SignalKind::terminate(),
-            SignalKind::hangup(),
-            SignalKind::quit(),
-            SignalKind::alarm(),
-            SignalKind::user_defined1(),
-            SignalKind::user_defined2(),
-            SignalKind::io(),
-        ];
-        let others = [Os::VTALARM, Os::PROF, Os::XCPU, Os::SYS];
-        let others = others.map(|other| SignalKind::from_raw(other.as_raw()));
-        let ends = [&ends[..], &others[..]].concat();
-        let signals: Vec<Signal> = ends.iter().filter_map(|kind| signal(*kind).ok()).collect();
-        if signals.len() < ends.len() {
-            tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
-        }
-        Self(signals)
-    }
-
-    /// Waits for the next one.
-    async fn next(&mut self) {
-        std::future::poll_fn(|context| self.poll(context)).await;
-    }
-
-    /// Polls all of them, so that each wakes the task.
-    fn poll(&mut self, context: &mut Context<'_>) -> Poll<()> {
-        let mut came = Poll::Pending;
-        for signal in &mut self.0 {
-            if let Poll::Ready(Some(())) = signal.poll_recv(context) {
-                came = Poll::Ready(());
-            }
-        }
-        came
-    }
 }

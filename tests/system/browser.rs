@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest as _;
@@ -375,6 +375,34 @@ fn no_client_disturbs_the_flight() {
     let (status, printed) = flown.end();
     assert_eq!(status, Some(0));
     println!("{printed}");
+}
+
+/// Reading their plans is work: what all vehicles share has only two threads.
+#[test]
+fn pages_that_load_without_end_hold_up_no_signal() {
+    let mut flown = Flown::start(HOVER);
+    let bad = json!({ "order": "load", "plan": "x\n".repeat(9000) }).to_string();
+    let pages = [(); 4].map(|()| {
+        let (mut page, bad) = (flown.live(), bad.clone());
+        std::thread::spawn(move || while page.0.send(Message::text(bad.as_str())).is_ok() {})
+    });
+    let mut watching = flown.live();
+    while watching.next("status")["phase"] != "flying" {}
+    signal(&flown.child, "-INT");
+    let told = Instant::now();
+    while watching.next("status")["phase"] == "flying" {}
+    assert!(told.elapsed() < Duration::from_secs(3), "{:?}", told.elapsed());
+    drop(watching);
+    let mut printed = flown.child.stdout.take().unwrap();
+    std::thread::spawn(move || std::io::copy(&mut printed, &mut std::io::sink()));
+    while flown.child.try_wait().unwrap().is_none() {
+        assert!(told.elapsed() < Duration::from_secs(20), "it has not ended");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert_eq!(flown.child.wait().unwrap().code(), Some(130));
+    for page in pages {
+        page.join().unwrap();
+    }
 }
 
 #[test]

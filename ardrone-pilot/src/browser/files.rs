@@ -65,7 +65,7 @@ pub(super) struct Files {
 
 /// Why a request is not served.
 #[derive(Debug, thiserror::Error)]
-enum Failure {
+pub(super) enum Failure {
     #[error(transparent)]
     Folder(#[from] FolderError),
     #[error("a plan is text of at most {PLAN_BYTES} bytes")]
@@ -151,7 +151,8 @@ impl Files {
             .with_state(Arc::clone(self))
     }
 
-    async fn quickly<T: Send + 'static>(
+    /// Does short work on a thread that yields to all others, one at a time.
+    pub(super) async fn quickly<T: Send + 'static>(
         self: Arc<Self>,
         work: impl FnOnce(&Self) -> T + Send + 'static,
     ) -> Result<T, Failure> {

@@ -57,6 +57,8 @@ const SEND_BYTES: usize = 32 << 10;
 const RESPONSE_TIME: Duration = Duration::from_mins(10);
 /// Maximum size of a message of the page: a plan as JSON.
 const REQUEST_BYTES: usize = 2 * PLAN_BYTES;
+/// Longest request that is read on the threads that serve all pages: a longer one is a plan, and reading it is work.
+const QUICKLY_READ_BYTES: usize = 512;
 /// Maximum data waiting to be written on a connection.
 const WRITE_BYTES: usize = 1 << 20;
 
@@ -396,7 +398,22 @@ async fn read(
             ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
             ws::Message::Close(_) => return,
         };
-        let answer = match requests.order(start.elapsed(), text, shared.files.planning()) {
+        let now = start.elapsed();
+        let requested = if text.len() > QUICKLY_READ_BYTES {
+            let text = text.to_owned();
+            let read = move |files: &Files| {
+                let requested = requests.order(now, &text, files.planning());
+                (requests, requested)
+            };
+            let Ok((after, requested)) = Arc::clone(&shared.files).quickly(read).await else {
+                return;
+            };
+            requests = after;
+            requested
+        } else {
+            requests.order(now, text, shared.files.planning())
+        };
+        let answer = match requested {
             Ok(None) => json!({ "type": "armed" }),
             Ok(Some(order)) => {
                 let (answers, name) = (answers.clone(), order.name());

@@ -170,7 +170,7 @@ pub(super) struct Fly {
     /// several times
     #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
     pub(super) tag: Vec<GivenTag>,
-    /// Record the flight to this file [default: flights/DATE.mcap]
+    /// Record the flight to this file [default: flights/DATE-VEHICLE.mcap]
     #[arg(long, value_name = "FILE")]
     pub(super) log: Option<PathBuf>,
     /// Do not record the flight

@@ -4,16 +4,15 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 use tokio::io::AsyncReadExt as _;
-use tokio::sync::{mpsc, oneshot};
+use tokio::sync::mpsc;
 
-use crate::runtime::{Runtime, Task};
+use crate::runtime::{Background, Runtime};
 
 /// Reads the control port until this is dropped.
 #[derive(Debug)]
 pub(super) struct ControlPort {
-    // Dropped first: nobody waits for room in the channel then.
     blocks: mpsc::Receiver<Vec<u8>>,
-    _task: Task<()>,
+    _reading: Background,
 }
 
 /// Capacity of the channel for blocks of the configuration dump. The drone waits while it is full.
@@ -26,21 +25,12 @@ const CONTROL_RETRY: Duration = Duration::from_millis(500);
 impl ControlPort {
     pub(super) fn read(runtime: &Runtime, address: SocketAddr) -> Self {
         let (sender, blocks) = mpsc::channel(BLOCKS);
-        let task = runtime.run("reading the control port", |ended| read(address, sender, ended));
-        Self { blocks, _task: task }
+        Self { blocks, _reading: runtime.spawn(pass_on(address, sender)) }
     }
 
     /// Bytes that have arrived, oldest first, at most as many as a tick has time for; never blocks.
     pub(super) fn poll(&mut self) -> impl Iterator<Item = Vec<u8>> + '_ {
         std::iter::from_fn(|| self.blocks.try_recv().ok()).take(BLOCKS_PER_TICK)
-    }
-}
-
-async fn read(address: SocketAddr, out: mpsc::Sender<Vec<u8>>, ended: oneshot::Receiver<()>) {
-    tokio::select! {
-        () = pass_on(address, out) => {}
-        // The flight is over.
-        _ = ended => {}
     }
 }
 

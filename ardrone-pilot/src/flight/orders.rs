@@ -12,6 +12,8 @@ use crate::runtime::UnderWay;
 
 /// Capacity of the order queue; one tick handles all of them.
 const WAITING: usize = 64;
+/// A tick handles no further order after this many steps of plans and commands, because each is tried before it is taken.
+const STEPS_PER_TICK: usize = 1000;
 /// Longest wait for the tick's answer: many ticks.
 const ANSWER_TIME: Duration = Duration::from_secs(1);
 
@@ -192,14 +194,20 @@ impl Orders {
         )
     }
 
-    /// Orders since the last tick, at most as many as the queue holds. Urgent orders come last, so that they
-    /// take precedence.
+    /// Orders since the last tick, at most as many as the queue holds and as a tick has time for. Urgent orders come last,
+    /// so that they take precedence.
     pub(super) fn poll(&self) -> impl Iterator<Item = Request> + '_ {
         let raised = |operator: &AtomicU32, order| {
             let by = unpacked(operator.swap(0, Ordering::Relaxed))?;
             Some(Request { by, order, answer: None })
         };
-        let others = self.others.try_iter().take(WAITING);
+        let mut steps = 0;
+        let others = std::iter::from_fn(move || {
+            let request = (steps < STEPS_PER_TICK).then(|| self.others.try_recv().ok())??;
+            steps += request.order.steps();
+            Some(request)
+        });
+        let others = others.take(WAITING);
         let landing =
             std::iter::once_with(move || raised(&self.urgent.landing, OperatorOrder::Land));
         let cut = std::iter::once_with(move || raised(&self.urgent.cut, OperatorOrder::Cut));
@@ -220,6 +228,8 @@ impl Drop for Orders {
 
 #[cfg(test)]
 mod tests {
+    use autopilot::plan::Commands;
+
     use super::*;
     use crate::runtime::Ending;
 
@@ -246,6 +256,19 @@ mod tests {
             (REMOTE, OperatorOrder::Cut)
         );
         assert_eq!(orders.poll().count(), 0);
+    }
+
+    #[test]
+    fn a_tick_takes_few_orders_that_are_long_and_no_landing_waits_for_them() {
+        let (orders, controls) =
+            Orders::new(VehicleName::default(), Ending::default().begin_flight());
+        let long = Commands::parse("commands", &"hold 0\n".repeat(STEPS_PER_TICK)).unwrap();
+        for _ in 0..2 {
+            controls.order(BY, OperatorOrder::Append(long.clone())).unwrap();
+        }
+        controls.order(BY, OperatorOrder::Land).unwrap();
+        let names = || orders.poll().map(|request| request.order.name()).collect::<Vec<_>>();
+        assert_eq!([names(), names(), names()], [vec!["append", "land"], vec!["append"], vec![]]);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use tokio::sync::broadcast;
 
 pub use self::export::{ExportError, Exported, export};
 use crate::recording::VideoRecorder;
-use crate::runtime::{Runtime, Task};
+use crate::runtime::{Background, Runtime};
 
 /// Pictures that a viewer may fall behind before it continues with the newest key picture: two seconds.
 const BEHIND: usize = 64;
@@ -48,7 +48,7 @@ impl VideoFeed {
 #[derive(Debug)]
 pub struct Video {
     feed: VideoFeed,
-    _task: Task<()>,
+    _reading: Background,
 }
 
 impl Video {
@@ -61,14 +61,8 @@ impl Video {
     ) -> Self {
         let feed = VideoFeed { sender: broadcast::Sender::new(BEHIND) };
         let (sender, host) = (feed.sender.clone(), host.to_owned());
-        let task = runtime.run("the video", |ended| async move {
-            tokio::select! {
-                () = pass_on(&host, port, &sender, recorder) => {}
-                // The flight has ended.
-                _ = ended => {}
-            }
-        });
-        Self { feed, _task: task }
+        let reading = runtime.spawn(async move { pass_on(&host, port, &sender, recorder).await });
+        Self { feed, _reading: reading }
     }
 
     /// For viewers.

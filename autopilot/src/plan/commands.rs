@@ -18,6 +18,11 @@ pub struct Commands {
 }
 
 impl Commands {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.lines.len()
+    }
+
     /// Parses commands, one per line; `name` stands for the source in messages.
     ///
     /// # Errors

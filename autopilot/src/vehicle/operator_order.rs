@@ -154,6 +154,17 @@ impl From<OperatorOrder> for OrderText {
     }
 }
 
+impl OperatorOrder {
+    /// How many steps it brings, each of which is tried before it is accepted.
+    pub fn steps(&self) -> usize {
+        match self {
+            Self::Load(plan) => plan.steps().len(),
+            Self::Append(commands) => commands.count(),
+            _ => 0,
+        }
+    }
+}
+
 impl<P, C> OperatorOrder<P, C> {
     /// The same order with other forms of plans and commands.
     fn map<Q, D, E>(
