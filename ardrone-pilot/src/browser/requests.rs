@@ -120,6 +120,11 @@ impl Requests {
         }
     }
 
+    /// Whether they come faster than a person could click.
+    pub(super) fn are_fast(&self) -> bool {
+        self.recent >= PER_S
+    }
+
     /// Whether so many requests were malformed, or refused as too fast, that the client is not this page.
     pub(super) fn is_garbage(&self) -> bool {
         self.meaningless > FORGIVEN || self.too_fast > FLOOD

@@ -27,7 +27,7 @@ use serde_json::{Value, json};
 use tokio::net::TcpStream;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
 use tokio::task::JoinSet;
-use tokio::time::{Instant, timeout};
+use tokio::time::{Instant, sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 
 use super::access::{Access, Claims, Refusal};
@@ -57,6 +57,8 @@ const SEND_BYTES: usize = 32 << 10;
 const RESPONSE_TIME: Duration = Duration::from_mins(10);
 /// Maximum size of a message of the page: a plan as JSON.
 const REQUEST_BYTES: usize = 2 * PLAN_BYTES;
+/// How long a page waits between requests that nobody could click so fast: MAVLink's messages share the threads.
+const FAST_WAIT: Duration = Duration::from_millis(10);
 /// Longest request that is read on the threads that serve all pages: a longer one is a plan, and reading it is work.
 const QUICKLY_READ_BYTES: usize = 512;
 /// Maximum data waiting to be written on a connection.
@@ -231,7 +233,7 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
                 drop(connections.spawn(connection(stream, app, place)));
             }
             // Too many open files: waits until some are closed.
-            Err(_) => tokio::time::sleep(Duration::from_millis(100)).await,
+            Err(_) => sleep(Duration::from_millis(100)).await,
         }
     }
 }
@@ -391,7 +393,11 @@ async fn read(
 ) {
     let start = Instant::now();
     let mut requests = Requests::default();
-    while let Some(Ok(message)) = stream.next().await {
+    loop {
+        if requests.are_fast() {
+            sleep(FAST_WAIT).await;
+        }
+        let Some(Ok(message)) = stream.next().await else { return };
         let text = match &message {
             ws::Message::Text(text) => text.as_str(),
             ws::Message::Binary(_) => "",
