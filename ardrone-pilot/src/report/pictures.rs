@@ -53,9 +53,10 @@ mod tests {
     use super::*;
 
     fn pictures(count: u64, bytes: usize) -> Vec<RecordedPicture> {
+        let data = Bytes::from(vec![1; bytes]);
         let picture = |index: u64| RecordedPicture {
             at: Duration::from_secs(100 + index),
-            data: Bytes::from(vec![1; bytes]),
+            data: data.clone(),
             is_entry: index.is_multiple_of(10),
         };
         (0..count).map(picture).collect()
