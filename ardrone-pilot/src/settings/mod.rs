@@ -11,7 +11,7 @@ use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use serde::{Deserialize, Serialize};
 
-use self::section::Comments;
+use self::section::{Comments, Section};
 use self::sections::{
     Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Vehicle, Video,
 };
@@ -145,8 +145,8 @@ impl Settings {
         self.tags.detect.then(|| self.tags.surveyed().map(SurveyedTag::from).collect())
     }
 
-    /// The vehicle's configuration.
-    pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
+    /// All sections but the tags, whose number varies.
+    fn sections(&self) -> [&dyn Section<VehicleConfig>; 9] {
         let Self {
             vehicle,
             fence,
@@ -156,47 +156,28 @@ impl Settings {
             delays,
             airframe,
             estimator,
-            tags,
+            tags: _,
             controller,
         } = self;
+        [vehicle, fence, drone, video, station, delays, airframe, estimator, controller]
+    }
+
+    /// The vehicle's configuration.
+    pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
         let mut config = VehicleConfig::default();
         config.limits.z_origin = z_origin;
-        vehicle.apply(&mut config);
-        fence.apply(&mut config);
-        drone.apply(&mut config);
-        video.apply(&mut config);
-        station.apply(&mut config);
-        delays.apply(&mut config);
-        airframe.apply(&mut config);
-        estimator.apply(&mut config);
-        controller.apply(&mut config);
-        config.estimator.tags = tags.config();
+        for section in self.sections() {
+            section.apply(&mut config);
+        }
+        config.estimator.tags = self.tags.config();
         config
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self {
-            vehicle,
-            fence,
-            drone,
-            video,
-            station,
-            delays,
-            airframe,
-            estimator,
-            tags,
-            controller,
-        } = self;
-        let mut reasons = vehicle.out_of_range();
-        reasons.extend(fence.out_of_range());
-        reasons.extend(drone.out_of_range());
-        reasons.extend(video.out_of_range());
-        reasons.extend(station.out_of_range());
-        reasons.extend(delays.out_of_range());
-        reasons.extend(airframe.out_of_range());
-        reasons.extend(estimator.out_of_range());
-        reasons.extend(controller.out_of_range());
-        reasons.extend(tags.reasons_against());
+        let mut reasons: Vec<String> =
+            self.sections().iter().flat_map(|section| section.out_of_range()).collect();
+        reasons.extend(self.tags.reasons_against());
+        let Self { fence, .. } = self;
         if fence.floor_m >= fence.ceiling_m {
             reasons.push("fence.floor_m is not below fence.ceiling_m".to_owned());
         }

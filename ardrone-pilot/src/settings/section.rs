@@ -49,14 +49,14 @@ macro_rules! section {
             /// Name, and each value's comments.
             pub(super) const COMMENTS: $crate::settings::section::Comments =
                 ($name, &[$((stringify!($value), &[$($comment),*])),+]);
+        }
 
-            /// Puts the values into their places.
-            pub(super) fn apply(&self, config: &mut $config) {
+        impl $crate::settings::section::Section<$config> for $section {
+            fn apply(&self, config: &mut $config) {
                 $(section!(@set config, self.$value, $($place)+);)+
             }
 
-            /// Reasons why values are out of range.
-            pub(super) fn out_of_range(&self) -> Vec<String> {
+            fn out_of_range(&self) -> Vec<String> {
                 let mut reasons = Vec::new();
                 $($(
                     for number in $crate::settings::section::Numbers::numbers(&self.$value) {
@@ -79,6 +79,14 @@ macro_rules! section {
 }
 
 pub(super) use section;
+
+/// A section's values, and where they go in the configuration.
+pub(super) trait Section<C> {
+    /// Puts the values into their places.
+    fn apply(&self, config: &mut C);
+    /// Reasons why values are out of range.
+    fn out_of_range(&self) -> Vec<String>;
+}
 
 /// A section's name, and the comments of each of its values.
 pub(super) type Comments = (&'static str, &'static [(&'static str, &'static [&'static str])]);

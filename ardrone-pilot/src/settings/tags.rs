@@ -6,7 +6,7 @@ use estimator::{MAX_TAGS, OrientationSign, SurveyedTag, TagConfig};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::section::{Milliseconds, Setting, section};
+use super::section::{Milliseconds, Section as _, Setting, section};
 
 section! {
     struct Tags("tags") of TagConfig {
