@@ -65,7 +65,7 @@ pub(super) struct Files {
 
 /// Why a request is not served.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum Failure {
+enum Failure {
     #[error(transparent)]
     Folder(#[from] FolderError),
     #[error("a plan is text of at most {PLAN_BYTES} bytes")]
@@ -151,8 +151,7 @@ impl Files {
             .with_state(Arc::clone(self))
     }
 
-    /// Does short work on a thread that yields to all others, one at a time.
-    pub(super) async fn quickly<T: Send + 'static>(
+    async fn quickly<T: Send + 'static>(
         self: Arc<Self>,
         work: impl FnOnce(&Self) -> T + Send + 'static,
     ) -> Result<T, Failure> {

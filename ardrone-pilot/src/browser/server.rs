@@ -26,7 +26,7 @@ use rustix::net::sockopt::set_socket_send_buffer_size;
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
-use tokio::task::JoinSet;
+use tokio::task::{JoinSet, block_in_place};
 use tokio::time::{Instant, sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 
@@ -59,7 +59,8 @@ const RESPONSE_TIME: Duration = Duration::from_mins(10);
 const REQUEST_BYTES: usize = 2 * PLAN_BYTES;
 /// How long a page waits between requests that nobody could click so fast: MAVLink's messages share the threads.
 const FAST_WAIT: Duration = Duration::from_millis(10);
-/// Longest request that is read on the threads that serve all pages: a longer one is a plan, and reading it is work.
+/// Longest request that is read at once. A longer one is a plan, and reading it is work: they take turns, so that one of the
+/// threads that serve all pages is free. Not at a low priority: a landing may stand behind it.
 const QUICKLY_READ_BYTES: usize = 512;
 /// Maximum data waiting to be written on a connection.
 const WRITE_BYTES: usize = 1 << 20;
@@ -125,6 +126,7 @@ impl Server {
             controls,
             stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
+            long_requests: Semaphore::new(1),
             pages: AtomicU16::new(0),
             video,
             watchers: Arc::new(Semaphore::new(VIEWERS as usize)),
@@ -161,6 +163,7 @@ struct Shared {
     controls: Controls,
     stage: Mutex<Stage>,
     viewers: Arc<Semaphore>,
+    long_requests: Semaphore,
     /// Pages so far, each of which is an operator.
     pages: AtomicU16,
     video: Option<VideoFeed>,
@@ -405,19 +408,13 @@ async fn read(
             ws::Message::Close(_) => return,
         };
         let now = start.elapsed();
+        let mut order = || requests.order(now, text, shared.files.planning());
         let requested = if text.len() > QUICKLY_READ_BYTES {
-            let text = text.to_owned();
-            let read = move |files: &Files| {
-                let requested = requests.order(now, &text, files.planning());
-                (requests, requested)
-            };
-            let Ok((after, requested)) = Arc::clone(&shared.files).quickly(read).await else {
-                return;
-            };
-            requests = after;
-            requested
+            // The semaphore is never closed.
+            let _turn = shared.long_requests.acquire().await;
+            block_in_place(order)
         } else {
-            requests.order(now, text, shared.files.planning())
+            order()
         };
         let answer = match requested {
             Ok(None) => json!({ "type": "armed" }),
