@@ -3,17 +3,14 @@
 use std::collections::VecDeque;
 
 use crate::orders::{Order, Orders};
-use crate::silence::{KEPT_S, Silence, last_heard_s};
+use crate::silence::{KEPT_S, Silence, USUAL_STEP_S, last_heard_s};
 use kinematics::wrap_deg;
 use kinematics::{Airframe, DroneLimits};
 
 /// A heading that no turn explains, by more than this and this much per second since the last one, is a step of the
-/// compass; by more per second of a silence. The firmware has been seen to step by 160°.
+/// compass; by twice as much per second of a silence. The firmware has been seen to step by 160°.
 const MAX_SURPRISE_DEG: f64 = 6.0;
 const MAX_SURPRISE_DEG_S: f64 = 10.0;
-const SILENT_DEG_S: f64 = 10.0;
-/// A drone that does not receive its orders goes on turning. While packets arrive, this long is enough.
-const BRIEF_S: f64 = 0.1;
 /// The turn rate is measured over this time; from older headings the prediction of the sticks is better.
 const RATE_S: f64 = 0.15;
 const MAX_RATE_S: f64 = 0.5;
@@ -99,7 +96,7 @@ impl Heading {
         // Unwrapped, so that it does not jump at half a turn, and by the turn that is expected.
         let moved_deg = moved_deg + 360.0 * ((heard_deg - moved_deg) / 360.0).round();
         let surprise_deg = beyond(moved_deg, least_deg, most_deg);
-        let allowed_deg_s = MAX_SURPRISE_DEG_S + SILENT_DEG_S * silent;
+        let allowed_deg_s = MAX_SURPRISE_DEG_S * (1.0 + silent);
         let stepped = surprise_deg > MAX_SURPRISE_DEG + allowed_deg_s * (at_s - last_s);
         if stepped { (heard_deg, Some(moved_deg - heard_deg)) } else { (moved_deg, None) }
     }
@@ -134,7 +131,8 @@ impl Heading {
     ) -> [f64; 2] {
         let last_s = self.measured.back().map_or(at_s, |(last_s, _)| *last_s);
         let rate_deg_s = self.measured_deg_s();
-        let brief_s = (at_s - last_s).min(BRIEF_S);
+        // A drone that does not receive its orders goes on turning. While packets arrive, a moment is enough.
+        let brief_s = (at_s - last_s).min(USUAL_STEP_S);
         let after_deg = model.turned(rate_deg_s, last_s + brief_s, at_s).1;
         let heard = [ordered_deg[0], ordered_deg[1], rate_deg_s * brief_s + after_deg];
         let least_deg = heard.into_iter().fold(f64::INFINITY, f64::min);

@@ -37,44 +37,50 @@
 #![forbid(unsafe_code)]
 
 mod bank;
+mod belief;
 mod clock;
 mod heading;
 mod horizontal;
 mod identification;
 mod noise;
 mod orders;
-mod plausibility;
+mod repetition;
 mod response;
+mod sensor;
 mod silence;
-mod tags;
 mod trust;
 mod uncertainty;
 mod unheard;
+mod velocity_gate;
 mod vertical;
+mod world;
 
 use std::time::Duration;
 
-use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, world_from_body, wrap_deg};
+use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
-pub use tags::{
+pub use trust::{Quantity, Trust};
+pub use world::{
     KnownTag, KnownTags, MAX_SIGHTS, MAX_TAGS, NoRoom, OrientationSign, Sight, SurveyedTag,
     TagConfig, TagStatus,
 };
-pub use trust::{Quantity, Trust};
 
+use crate::belief::{Beliefs, Cause, ENOUGH_S, Evidence};
 use crate::clock::SampleClock;
 use crate::heading::Heading;
 use crate::horizontal::{Horizontal, ObserverGains};
 use crate::identification::Identification;
 use crate::noise::NoiseOfAll;
 use crate::orders::Orders;
-use crate::plausibility::{Foreseen, Plausibility, VelocityGate, Verdict};
+use crate::repetition::Repetitions;
 use crate::response::{Measured, Response};
-use crate::tags::{OdometryStep, Tags};
-use crate::uncertainty::{HEADING_STEP_DEG, Uncertainty};
+use crate::silence::USUAL_STEP_S;
+use crate::uncertainty::Uncertainty;
+use crate::velocity_gate::{Foreseen, VelocityGate};
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
+use crate::world::{OdometryStep, World};
 
 /// The motion reported by one navdata packet.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -197,17 +203,16 @@ pub struct Estimator {
     /// The last two altitudes of a drone that stands.
     standing_m: [f64; 2],
     identification: Identification,
-    plausibility: Plausibility,
+    beliefs: Beliefs,
+    repetitions: Repetitions,
     response: Response,
     noise: NoiseOfAll,
     uncertainty: Uncertainty,
     /// Since when the altitude is that of a drone on the floor although it follows its sticks.
     low_since_s: Option<f64>,
-    airborne_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
-    /// Transform from the odometry to the world frame.
-    tags: Option<Box<Tags>>,
+    world: Box<World>,
 }
 
 impl Default for Estimator {
@@ -219,8 +224,8 @@ impl Default for Estimator {
 /// Longest gap that is bridged by the mean of the velocities around it. A drone that receives nothing hovers
 /// and then lands by itself.
 const MAX_STEP_S: f64 = 3.0;
-/// Longest interval between navdata that counts as gapless.
-const USUAL_STEP_S: f64 = 0.1;
+/// Lateness of navdata, compared with the usual, beyond which they are out of date.
+const MAX_LATENESS_S: f64 = 0.3;
 /// A repeated altitude after this time is a new measurement with the same value: the ultrasound measures 22
 /// or 25 times per second.
 const ALTITUDE_INTERVAL_S: f64 = 0.05;
@@ -228,9 +233,6 @@ const ALTITUDE_INTERVAL_S: f64 = 0.05;
 const CLEAR_OF_GROUND_M: f64 = 0.4;
 /// A drone that follows its sticks does not fly this low: it is on the floor, or its altitude is wrong.
 const ON_FLOOR_M: f64 = 0.1;
-const ON_FLOOR_S: f64 = 0.4;
-/// Time after which a take-off is clear of the ground.
-const TAKE_OFF_S: f64 = 3.0;
 /// Time in which an order shows in the attitude, also through a link that delays it.
 const RECENT_S: f64 = 0.5;
 /// Furthest prediction beyond the newest sample, besides the delay of the link.
@@ -252,15 +254,15 @@ impl Estimator {
             // Nothing has been measured yet.
             standing_m: [f64::INFINITY; 2],
             identification: Identification::new(config.airframe, config.limits),
-            plausibility: Plausibility::default(),
-            response: Response::new(&config.limits),
+            beliefs: Beliefs::new(),
+            repetitions: Repetitions::default(),
+            response: Response::new(),
             noise: NoiseOfAll::default(),
             uncertainty: Uncertainty::default(),
             low_since_s: None,
-            airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
-            tags: config.tags.as_ref().map(|tags| Box::new(Tags::new(tags))),
+            world: Box::new(World::new(config.tags.as_ref())),
             config,
         }
     }
@@ -290,9 +292,12 @@ impl Estimator {
         let lateness_s = arrival_s - made_s;
         self.heading.hear(made_s);
         self.velocity_gate.hear(made_s);
-        if let Some(quantity) = plausibility::impossible(sample) {
-            let verdict = Verdict { rejected: Some(quantity), lateness_s, ..Verdict::default() };
-            self.plausibility.watch(arrival_s, sample, &verdict);
+        let is_news = lateness_s <= MAX_LATENESS_S;
+        let against = |cause: Cause| {
+            move |quantity: Quantity| Evidence { quantity, cause, since_s: arrival_s }
+        };
+        if let Some(quantity) = sensor::impossible(sample) {
+            self.beliefs.weigh(arrival_s, &[Some(against(Cause::Value)(quantity))], is_news);
             return;
         }
         let was_airborne = std::mem::replace(&mut self.airborne, sample.airborne);
@@ -303,32 +308,6 @@ impl Estimator {
         let turned = self.update_attitude(attitude_s, sample);
         let believed = self.update_horizontal(made_s, sample, was_airborne);
         let floor_stepped = self.update_vertical(made_s, sample);
-        let by_itself = self.orders.at(attitude_s) == Order::ByItself;
-        // Not by one echo, which may be wrong.
-        let height_m = self.altitude.state().height_m;
-        let is_low = self.altitude.above_floor_m(height_m) < CLEAR_OF_GROUND_M;
-        let since_s = *self.airborne_since_s.get_or_insert(arrival_s);
-        if !sample.airborne {
-            self.airborne_since_s = None;
-        }
-        let takes_off = arrival_s - since_s < TAKE_OFF_S;
-        let verdict = Verdict {
-            rejected: (!believed).then_some(Quantity::Velocity),
-            unresponsive: self.watch_response(attitude_s, sample),
-            noisy: self.watch_noise(made_s, sample),
-            step: match (turned, floor_stepped) {
-                (true, _) => Some(Quantity::Heading),
-                (false, true) => Some(Quantity::Altitude),
-                (false, false) => None,
-            },
-            near_ground: by_itself && is_low && takes_off,
-            flow_rests: sample.autonomous && is_low,
-            asked_rise_m: self.response.asked_rise_m(),
-            asked_turn_deg: self.response.asked_turn_deg(),
-            lateness_s,
-        };
-        self.plausibility.watch(arrival_s, sample, &verdict);
-
         let vertical = self.altitude.state();
         self.estimate = Estimate {
             at: sample.arrival,
@@ -337,20 +316,42 @@ impl Estimator {
             yaw_deg: wrap_deg(self.heading_at(attitude_s)),
             above_floor_m: self.altitude.above_floor_m(vertical.height_m),
         };
-        self.update_tags(made_s, sample);
+
+        // Not by one echo, which may be wrong.
+        let is_low = self.estimate.above_floor_m < CLEAR_OF_GROUND_M;
+        // Near the ground the sensors of a drone that takes off or lands may have nothing to measure, however long its
+        // motors need.
+        let rests = sample.autonomous && is_low;
+        let repeated = self.repetitions.watch(arrival_s, sample).filter(|_| !rests);
+        // What has summed up began before.
+        let summed_up = |it: Evidence| Evidence { since_s: it.since_s - ENOUGH_S, ..it };
+        let stepped = [(turned, Quantity::Heading), (floor_stepped, Quantity::Altitude)];
+        let [turned, floor_stepped] =
+            stepped.map(|(stepped, quantity)| stepped.then_some(quantity));
+        let evidence = [
+            (!believed).then_some(Quantity::Velocity).map(against(Cause::Value)),
+            repeated.map(|(quantity, since_s)| Evidence {
+                since_s,
+                ..against(Cause::Repetition)(quantity)
+            }),
+            self.watch_noise(made_s, sample).map(against(Cause::Noise)).map(summed_up),
+            sample.reported_lost.filter(|_| sample.airborne).map(against(Cause::Report)),
+            self.watch_response(attitude_s, sample).map(against(Cause::Response)).map(summed_up),
+            turned.map(against(Cause::Step)),
+            floor_stepped.map(against(Cause::Step)),
+        ];
+        self.beliefs.weigh(arrival_s, &evidence, is_news);
+
+        self.move_world(made_s, sample);
     }
 
     /// Moves the world frame along with the odometry.
-    fn update_tags(&mut self, made_s: f64, sample: &Sample) {
-        if self.tags.is_none() {
-            return;
-        }
+    fn move_world(&mut self, made_s: f64, sample: &Sample) {
         let at_s = self.velocity_at_s.unwrap_or(made_s);
         let yaw_deg = self.heading_at(at_s);
-        let Some(tags) = &mut self.tags else { return };
         let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
         let height_s = made_s - self.config.altitude_delay.as_secs_f64();
-        tags.fly(&OdometryStep {
+        self.world.fly(&OdometryStep {
             made_s,
             at_s,
             place_m: self.horizontal.position_m,
@@ -366,38 +367,36 @@ impl Estimator {
 
     /// Transforms the newest estimate from the odometry to the world frame.
     fn move_into_world(&mut self) {
-        let Some(tags) = &self.tags else { return };
         let at_s = self.velocity_at_s.unwrap_or_default();
         let heading_deg = self.heading_at(at_s);
         let velocity_m_s = self.horizontal.measured_m_s();
         let estimate = &mut self.estimate;
         let yaw_deg = self.heading.newest_deg();
-        estimate.position_m = tags.place_m(self.horizontal.position_m).push(estimate.position_m.z);
+        estimate.position_m =
+            self.world.place_m(self.horizontal.position_m).push(estimate.position_m.z);
         estimate.velocity_m_s =
-            tags.velocity_m_s(velocity_m_s, heading_deg).push(estimate.velocity_m_s.z);
-        estimate.yaw_deg = wrap_deg(tags.heading_deg(yaw_deg));
+            self.world.velocity_m_s(velocity_m_s, heading_deg).push(estimate.velocity_m_s.z);
+        estimate.yaw_deg = wrap_deg(self.world.heading_deg(yaw_deg));
     }
 
     /// Processes the roundels in the packet of the newest sample. They are ignored without
     /// [`EstimatorConfig::tags`].
     pub fn see(&mut self, sights: &[Sight]) {
-        let Some(mut tags) = self.tags.take() else { return };
         let turn_deg_s = self.heading.newest_turn_deg_s();
-        tags.see(sights, |at_s| self.heading_at(at_s), turn_deg_s, self.airborne);
-        self.tags = Some(tags);
+        let Self { config, orders, heading, identification, world, .. } = self;
+        let airframe = identification.airframe();
+        let heading_at = |at_s| heading.at(at_s, orders, airframe, &config.limits);
+        world.see(sights, heading_at, turn_deg_s, self.airborne);
         self.move_into_world();
     }
 
     /// Returns whether the compass made a step.
     fn update_attitude(&mut self, attitude_s: f64, sample: &Sample) -> bool {
-        let Self { config, orders, heading, identification, .. } = self;
+        let Self { config, orders, heading, identification, world, .. } = self;
         let airframe = *identification.airframe();
         let stepped = heading.update(attitude_s, sample.yaw_deg, orders, &airframe, &config.limits);
         if stepped {
-            self.uncertainty.step_of_the_heading();
-            if let Some(tags) = &mut self.tags {
-                tags.step_of_the_heading(HEADING_STEP_DEG);
-            }
+            world.step_of_the_heading();
         }
         if config.identify {
             let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
@@ -426,7 +425,7 @@ impl Estimator {
     fn watch_response(&mut self, at_s: f64, sample: &Sample) -> Option<Quantity> {
         let measured = Measured {
             at_s,
-            altitude_m: self.altitude.above_floor_m(self.altitude.state().height_m),
+            altitude_m: self.altitude.state().height_m,
             // Without the steps of the compass.
             yaw_deg: self.heading.newest_deg(),
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
@@ -435,7 +434,7 @@ impl Estimator {
         let by_sticks = self.orders.at(at_s) != Order::ByItself;
         let is_low = by_sticks && sample.airborne && sample.altitude_m < ON_FLOOR_M;
         self.low_since_s = is_low.then(|| self.low_since_s.unwrap_or(at_s));
-        let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ON_FLOOR_S);
+        let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ENOUGH_S);
         let unresponsive = self.response.watch(&measured, &self.orders, &self.config.limits);
         unresponsive.or(scrapes.then_some(Quantity::Altitude))
     }
@@ -475,18 +474,12 @@ impl Estimator {
         let unheard_share = self.velocity_gate.unheard_share(step_s);
         let tilt_rad = Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians);
         let unheard = self.unheard_m_s([from_s, at_s], tilt_rad, after, unheard_share);
-        let expected = Foreseen {
-            before_m_s: before,
-            after_m_s: after,
-            unheard_m_s: &unheard,
-            pull_m_s2: GRAVITY_M_S2 * tilt_rad.norm().tan() * unheard_share,
-        };
+        let expected = Foreseen { before_m_s: before, after_m_s: after, unheard_m_s: &unheard };
         let believed = self.velocity_gate.admits(measured_m_s, &expected, step_s);
         let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
         let before_m_s = self.horizontal.measured_m_s();
         let mean_m_s = (before_m_s + velocity_m_s) / 2.0;
         let position_m = self.horizontal.position_m + mean_m_s * step_s.min(MAX_STEP_S);
-        self.uncertainty.fly(step_s);
         let unseen_s = (step_s - USUAL_STEP_S).max(0.0);
         self.uncertainty.fly_unseen(unseen_s, before_m_s, velocity_m_s);
         if !believed {
@@ -603,13 +596,13 @@ impl Estimator {
     }
 
     fn in_world(&self, odometry: Prediction) -> Prediction {
-        let Some(tags) = &self.tags else { return odometry };
+        let world = &self.world;
         let Prediction { position_m, velocity_m_s, yaw_deg, disturbance_m_s2, .. } = odometry;
         Prediction {
-            position_m: tags.place_m(position_m.xy()).push(position_m.z),
-            velocity_m_s: tags.velocity_m_s(velocity_m_s.xy(), yaw_deg).push(velocity_m_s.z),
-            yaw_deg: wrap_deg(tags.heading_deg(yaw_deg)),
-            disturbance_m_s2: tags.turned(disturbance_m_s2),
+            position_m: world.place_m(position_m.xy()).push(position_m.z),
+            velocity_m_s: world.velocity_m_s(velocity_m_s.xy(), yaw_deg).push(velocity_m_s.z),
+            yaw_deg: wrap_deg(world.heading_deg(yaw_deg)),
+            disturbance_m_s2: world.turned(disturbance_m_s2),
             ..odometry
         }
     }
@@ -617,8 +610,7 @@ impl Estimator {
     /// A prediction for the controller: where a tag has moved the estimate by a step, the step is turned into
     /// a motion. Without tags it is the prediction itself.
     pub fn smooth(&self, prediction: &Prediction) -> Prediction {
-        let Some(tags) = &self.tags else { return *prediction };
-        let (place_m, velocity_m_s, yaw_deg) = tags.smooth(
+        let (place_m, velocity_m_s, yaw_deg) = self.world.smooth(
             prediction.position_m.xy(),
             prediction.velocity_m_s.xy(),
             prediction.yaw_deg,
@@ -633,9 +625,7 @@ impl Estimator {
 
     /// Advances the motions of [`Estimator::smooth`] by one step.
     pub fn advance_smooth(&mut self, step_s: f64) {
-        if let Some(tags) = &mut self.tags {
-            tags.advance(step_s);
-        }
+        self.world.advance(step_s);
     }
 
     /// Adds surveyed tags to those that are known, in flight. A known tag within 0.75 m is taken to be the same:
@@ -645,8 +635,8 @@ impl Estimator {
     /// # Errors
     /// [`NoRoom`] if more than [`MAX_TAGS`] tags would be known. Nothing has changed then.
     pub fn survey(&mut self, surveyed: &[SurveyedTag]) -> Result<(), NoRoom> {
-        if let Some(tags) = &mut self.tags {
-            tags.survey(surveyed, self.horizontal.position_m)?;
+        if self.config.tags.is_some() {
+            self.world.survey(surveyed, self.horizontal.position_m)?;
             self.move_into_world();
         }
         Ok(())
@@ -654,32 +644,26 @@ impl Estimator {
 
     /// The known tags and their status; `None` if tags are not used.
     pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
-        let tags = self.tags.as_ref()?;
+        let status = self.world.status(now.as_secs_f64())?;
         let at_s = self.velocity_at_s.unwrap_or_default();
         let deviation_m = self.horizontal_deviation_m(now);
-        Some(TagStatus {
-            is_due: self.airborne && tags.is_due(at_s, self.heading_at(at_s), deviation_m),
-            ..tags.status(now.as_secs_f64())
-        })
+        let is_due = self.airborne && self.world.is_due(at_s, self.heading_at(at_s), deviation_m);
+        Some(TagStatus { is_due, ..status })
     }
 
     /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without
     /// which tags do not correct the heading.
     pub fn would_learn_from_a_turn(&self, now: Duration) -> bool {
-        self.tags.as_ref().is_some_and(|tags| tags.would_learn_from_a_turn(now.as_secs_f64()))
+        self.world.would_learn_from_a_turn(now.as_secs_f64())
     }
 
     /// Standard deviation of the position on each horizontal axis. It grows with time, distance from the
     /// start, and silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
         let speed_m_s = self.horizontal.measured_m_s().norm();
-        let distance_m = self.horizontal.position_m.norm();
-        let untagged_m = self.uncertainty.horizontal_m(distance_m, self.silence_s(now), speed_m_s);
-        let Some(tags) = &self.tags else { return untagged_m };
-        let known_m = tags.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
-        let tagged_m = known_m.hypot(Uncertainty::silence_m(self.silence_s(now), speed_m_s));
-        // Until a tag is seen, nothing more is known than without.
-        if tags.has_fix() { tagged_m } else { tagged_m.max(untagged_m) }
+        let known_m =
+            self.world.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
+        known_m.hypot(uncertainty::silence_m(self.silence_s(now), speed_m_s))
     }
 
     /// Standard deviation of the height.
@@ -706,13 +690,13 @@ impl Estimator {
 
     /// Whether navdata are plausible.
     pub fn trust(&self) -> Trust {
-        self.plausibility.trust()
+        self.beliefs.trust()
     }
 
     /// When the newest plausible navdata arrived; `None` if there were none yet. A fault is dated from its
     /// first packet: when it is detected this moves back to the packet before.
     pub fn sound_at(&self) -> Option<Duration> {
-        self.plausibility.sound_at_s().map(|at_s| Duration::from_secs_f64(at_s.max(0.0)))
+        self.beliefs.sound_at_s().map(|at_s| Duration::from_secs_f64(at_s.max(0.0)))
     }
 
     /// The drone has restarted: forgets the clock and the compass, keeps the position.
@@ -724,12 +708,11 @@ impl Estimator {
         self.velocity_gate = VelocityGate::default();
         self.altitude_at = None;
         self.uncertainty.handle_restart();
-        self.plausibility = Plausibility::default();
-        self.response = Response::new(&self.config.limits);
+        self.beliefs = Beliefs::new();
+        self.repetitions = Repetitions::default();
+        self.response = Response::new();
         self.noise = NoiseOfAll::default();
-        if let Some(tags) = &mut self.tags {
-            tags.handle_restart();
-        }
+        self.world.handle_restart();
     }
 }
 

@@ -8,6 +8,7 @@
 use kinematics::{DroneLimits, GRAVITY_M_S2, wrap_deg};
 
 use crate::Sample;
+use crate::sensor::{ATTITUDE_DEG, COMPASS_DEG, FLOW_M_S, ULTRASOUND_M};
 use crate::trust::Quantity;
 
 /// Three values over a longer time may bend by anything.
@@ -73,11 +74,6 @@ impl NoiseOfAll {
     }
 }
 
-/// White noise of the worse sensors: the flow's after its filter.
-const FLOW_M_S: f64 = 0.05;
-const ULTRASOUND_M: f64 = 0.02;
-const COMPASS_DEG: f64 = 0.3;
-const ATTITUDE_DEG: f64 = 0.4;
 /// Largest acceleration upwards or downwards: full climb within 0.17 s.
 const CLIMB_M_S2: f64 = 8.0;
 

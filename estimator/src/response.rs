@@ -8,7 +8,7 @@
 use nalgebra::Vector2;
 
 use self::axis::Axis;
-use self::rate::{Answer, Rate, Tolerance};
+use self::rate::{Rate, Tolerance};
 use crate::orders::{Order, Orders};
 use crate::trust::Quantity;
 use kinematics::Sticks;
@@ -22,46 +22,21 @@ mod rate;
 const MAX_GAP_S: f64 = 0.3;
 /// Published airframes climb with 1 to 1.7 times the commanded rate, with a lag of 0.17 to 1.25 s. A fraction
 /// of one half would let an altitude that drifts down by 0.2 m/s raise the drone by 1.7 m.
-fn climb(limits: &DroneLimits) -> Rate<6> {
-    let tolerance = Tolerance {
-        share: 0.6,
-        most: 2.2,
-        slack: 0.03,
-        missing: 0.2,
-        missing_slowly: 0.5,
-        jump: 0.1,
-        jump_1_s: 1.0,
-        full: limits.climb_m_s,
-    };
-    let [shortest_s, longest_s] = Airframe::CLIMB_LAGS_S;
-    let lags_s = [Airframe::default().climb_lag_s, shortest_s, longest_s];
-    let answers =
-        [1.0, Airframe::STRONGEST_DROP].map(|down| lags_s.map(|lag_s| Answer { lag_s, down }));
-    Rate::new(tolerance, std::array::from_fn(|i| answers[i / 3][i % 3]))
-}
-
+const CLIMB: Tolerance =
+    Tolerance { gains: [0.6, 2.2], down: Airframe::STRONGEST_DROP, slack: 0.02, enough: 0.2 };
 /// Published airframes turn with 0.7 to 1 times the commanded rate, with a lag of 0.02 to 0.5 s.
-fn turn(limits: &DroneLimits) -> Rate<3> {
-    let tolerance = Tolerance {
-        share: 0.6,
-        most: 1.3,
-        slack: 1.0,
-        missing: 10.0,
-        missing_slowly: 20.0,
-        jump: 6.0,
-        jump_1_s: 60.0,
-        full: limits.turn_deg_s,
-    };
-    let [shortest_s, longest_s] = Airframe::TURN_LAGS_S;
-    let lags_s = [Airframe::default().turn_lag_s, shortest_s, longest_s];
-    Rate::new(tolerance, lags_s.map(|lag_s| Answer { lag_s, down: 1.0 }))
+const TURN: Tolerance = Tolerance { gains: [0.6, 1.3], down: 1.0, slack: 1.0, enough: 10.0 };
+
+/// The lag of an ordinary airframe, and the extremes of the published ones.
+fn with_extremes(ordinary_s: f64, [shortest_s, longest_s]: [f64; 2]) -> [f64; 3] {
+    [ordinary_s, shortest_s, longest_s]
 }
 
 /// Compares commands with measurements.
 #[derive(Debug, Clone)]
 pub(crate) struct Response {
     at_s: Option<f64>,
-    climb: Rate<6>,
+    climb: Rate<3>,
     turn: Rate<3>,
     axes: [Axis; 2],
     /// Heading of the body that the axes are those of.
@@ -72,7 +47,7 @@ pub(crate) struct Response {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measured {
     pub(crate) at_s: f64,
-    /// Height above the floor, without wrong echoes.
+    /// Height, without wrong echoes and steps of the floor.
     pub(crate) altitude_m: f64,
     /// Heading, without the steps of the compass.
     pub(crate) yaw_deg: f64,
@@ -83,11 +58,12 @@ pub(crate) struct Measured {
 }
 
 impl Response {
-    pub(crate) fn new(limits: &DroneLimits) -> Self {
+    pub(crate) fn new() -> Self {
+        let airframe = Airframe::default();
         Self {
             at_s: None,
-            climb: climb(limits),
-            turn: turn(limits),
+            climb: Rate::new(CLIMB, with_extremes(airframe.climb_lag_s, Airframe::CLIMB_LAGS_S)),
+            turn: Rate::new(TURN, with_extremes(airframe.turn_lag_s, Airframe::TURN_LAGS_S)),
             axes: [Axis::new(), Axis::new()],
             yaw_deg: 0.0,
         }
@@ -121,9 +97,9 @@ impl Response {
         let turned_deg = measured.yaw_deg - std::mem::replace(&mut self.yaw_deg, measured.yaw_deg);
         Axis::turn(right, forward, turned_deg);
         let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
-        let (at_s, full_rad) = (measured.at_s, limits.tilt_rad);
-        right.watch(at_s, step_s, velocity_m_s.x, tilt_rad.x, full_rad);
-        forward.watch(at_s, step_s, velocity_m_s.y, tilt_rad.y, full_rad);
+        let at_s = measured.at_s;
+        right.watch(at_s, step_s, velocity_m_s.x, tilt_rad.x);
+        forward.watch(at_s, step_s, velocity_m_s.y, tilt_rad.y);
         if self.axes.iter().any(Axis::is_dead) {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {
@@ -133,16 +109,6 @@ impl Response {
         } else {
             None
         }
-    }
-
-    /// Climb that the sticks have asked for since the flight began.
-    pub(crate) fn asked_rise_m(&self) -> f64 {
-        self.climb.asked()
-    }
-
-    /// Turn that the sticks have asked for since the flight began.
-    pub(crate) fn asked_turn_deg(&self) -> f64 {
-        self.turn.asked()
     }
 
     /// The drone moves autonomously: nothing is commanded.

@@ -2,17 +2,16 @@
 //! orders; while none arrive, it may not.
 
 /// Longest interval between packets that counts as gapless.
-const USUAL_STEP_S: f64 = 0.1;
+pub(crate) const USUAL_STEP_S: f64 = 0.1;
 
 /// A drone that receives nothing keeps its last sticks for this long; then it hovers by itself.
 pub(crate) const KEPT_S: f64 = 2.0;
-/// Which order it received last is unknown: this is the interval at which they are tried, and their largest number.
-const TRIED_EVERY_S: f64 = 0.1;
+/// Which order it received last is unknown: the largest number of them that are tried.
 pub(crate) const TRIED: usize = 20;
 
 /// Times in a gap at which the drone may have received its last order; the first is the beginning of the gap.
 pub(crate) fn last_heard_s(from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
-    let every_s = ((to_s - from_s) / TRIED as f64).max(TRIED_EVERY_S);
+    let every_s = ((to_s - from_s) / TRIED as f64).max(USUAL_STEP_S);
     let tried = (0..TRIED).map(move |i| from_s + i as f64 * every_s);
     tried.take_while(move |at_s| *at_s < to_s)
 }

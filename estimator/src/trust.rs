@@ -15,6 +15,12 @@ pub enum Quantity {
     Attitude,
 }
 
+impl Quantity {
+    /// All quantities.
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Velocity, Self::Altitude, Self::Heading, Self::Attitude];
+}
+
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

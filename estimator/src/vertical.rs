@@ -4,6 +4,8 @@
 //! correct it as in an alpha-beta filter, so the estimate does not lag behind the commands.
 
 use crate::orders::Order;
+use crate::sensor::{GATE, ULTRASOUND_M};
+use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
 
 /// Height above the floor at the start, and climb.
@@ -71,19 +73,17 @@ impl AltitudeFilter {
     const TIME_CONSTANT_S: f64 = 0.2;
     /// Time constant while it moves autonomously, which the model cannot predict.
     const TIME_CONSTANT_BY_ITSELF_S: f64 = 0.12;
-    /// Largest difference between a height and the expected one (`tum_ardrone` takes 0.11 m where the climb
-    /// is known)...
-    const MAX_JUMP_M: f64 = 0.15;
-    /// ...plus this much per second since the last one, because the climb may have changed.
+    /// Largest difference between a height and the expected one, of which both have the noise of the ultrasound
+    /// (`tum_ardrone` takes 0.11 m where the climb is known)...
+    const MAX_JUMP_M: f64 = GATE * std::f64::consts::SQRT_2 * ULTRASOUND_M;
+    /// ...plus this much per second since the last one, because the climb may have changed. In a gap a height that is
+    /// plausible only because of it is accepted when the next one agrees: the first may be a wrong echo.
     const MAX_JUMP_M_S: f64 = 1.0;
-    /// Heights further apart than this leave a gap. A height that is plausible only because of the gap is
-    /// accepted when the next one agrees: the first may be a wrong echo.
-    const USUAL_STEP_S: f64 = 0.1;
     /// Number of agreeing heights that make a step of the floor.
     const AGREEING: u32 = 4;
     /// Tolerance of the agreement, either of the heights or of their differences to the expected ones: the
     /// drone may hold its height, or move as expected.
-    const AGREEMENT_M: f64 = 0.1;
+    const AGREEMENT_M: f64 = GATE * ULTRASOUND_M;
 
     /// The state at the last measurement; at rest on the floor before the first.
     pub(crate) fn state(&self) -> Vertical {
@@ -108,8 +108,8 @@ impl AltitudeFilter {
             return self.begin(altitude_m);
         }
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s.min(Self::USUAL_STEP_S);
-        self.gap_s += (step_s - Self::USUAL_STEP_S).max(0.0);
+        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s.min(USUAL_STEP_S);
+        self.gap_s += (step_s - USUAL_STEP_S).max(0.0);
         if surprise_m.abs() > allowed_m {
             if self.unconfirmed {
                 return self.begin(altitude_m);

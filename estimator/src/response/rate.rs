@@ -1,65 +1,43 @@
 //! Whether a measurement follows a stick that asks for a rate: climb and turn.
 //!
-//! How an airframe answers is not known exactly: it may do so with any lag of the published models, and descend faster than
-//! it climbs. A measurement is accused only if it shows too little under each of these hypotheses.
+//! How an airframe answers is not known exactly: it may do so with any lag of the published models, and with any gain
+//! between the least and the largest. What it moves by lies between those two for one of the lags; what lies outside for
+//! all of them is summed up and slowly forgotten (a cumulative sum for each side; Page, 1954).
 
-/// Time constant with which a missing response is forgotten.
+/// Time constant with which evidence is forgotten.
 const FORGET_S: f64 = 10.0;
-/// Below this fraction of full stick the gains of the airframe make no difference, and neither do its lags
-/// once the command has been this slow for this long.
-const SLOW_SHARE: f64 = 0.35;
-const SLOW_TIME_S: f64 = 2.0;
-/// How long a response must be missing: one wrong echo may look like it.
-pub(super) const MISSING_TIME_S: f64 = 0.12;
+/// How long there must be enough of it: one wrong echo may look like it.
+pub(super) const LASTS_S: f64 = 0.12;
 
-/// Tolerances of an axis that follows its stick as a rate.
+/// How far from what a stick asks for a measurement may be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tolerance {
-    /// Smallest fraction of the commanded rate that an airframe achieves.
-    pub(super) share: f64,
-    /// More than this multiple of it none achieves.
-    pub(super) most: f64,
-    /// Drift of a healthy sensor, and rates too small to judge, per second.
-    pub(super) slack: f64,
-    /// Tolerated missing, or excessive, response in total: to all commands, and to slow commands.
-    pub(super) missing: f64,
-    pub(super) missing_slowly: f64,
-    /// A measurement further than this from the expected one, plus this much per second, has jumped; jumps
-    /// are judged elsewhere.
-    pub(super) jump: f64,
-    pub(super) jump_1_s: f64,
-    /// Full rate is the stick's times this.
-    pub(super) full: f64,
-}
-
-/// How an airframe may answer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Answer {
-    pub(super) lag_s: f64,
-    /// Gain of a negative rate.
+    /// Least and largest gain of an airframe, and by what the largest is multiplied downwards.
+    pub(super) gains: [f64; 2],
     pub(super) down: f64,
+    /// Drift of a healthy sensor, per second.
+    pub(super) slack: f64,
+    /// Evidence that is enough.
+    pub(super) enough: f64,
 }
 
-/// A response and what an airframe would have shown, by one hypothesis.
+/// An airframe of one lag.
 #[derive(Debug, Clone, Copy)]
 struct Hypothesis {
-    answer: Answer,
-    /// Rate that follows the stick, and its integral since the last measurement.
-    now: f64,
-    way: f64,
-    missing: f64,
-    excess: f64,
-    missing_slowly: f64,
-    slow_for_s: f64,
+    lag_s: f64,
+    /// Least and most rate, and their integrals since the last measurement.
+    rates: [f64; 2],
+    ways: [f64; 2],
+    /// How far the measurement was below the least, and above the most.
+    below: f64,
+    above: f64,
 }
 
-/// The axis, judged by several hypotheses, of which the first is the ordinary airframe.
+/// The axis, judged by several hypotheses.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rate<const N: usize> {
     tolerance: Tolerance,
     hypotheses: [Hypothesis; N],
-    /// What the stick asked of the ordinary airframe since the flight began.
-    asked: f64,
     last: Option<f64>,
     /// Whether the stick asked for anything since the last measurement.
     asks: bool,
@@ -69,49 +47,33 @@ pub(super) struct Rate<const N: usize> {
 }
 
 impl Hypothesis {
-    fn new(answer: Answer) -> Self {
-        Self {
-            answer,
-            now: 0.0,
-            way: 0.0,
-            missing: 0.0,
-            excess: 0.0,
-            missing_slowly: 0.0,
-            slow_for_s: 0.0,
-        }
+    fn moving(lag_s: f64, rate: f64) -> Self {
+        Self { lag_s, rates: [rate; 2], ways: [0.0; 2], below: 0.0, above: 0.0 }
     }
 
-    fn follow(&mut self, wanted: f64, step_s: f64) -> f64 {
-        let wanted = if wanted < 0.0 { wanted * self.answer.down } else { wanted };
-        let before = self.now;
-        self.now += (wanted - self.now) * (1.0 - (-step_s / self.answer.lag_s).exp());
-        let way = f64::midpoint(before, self.now) * step_s;
-        self.way += way;
-        way
+    fn follow(&mut self, wanted: [f64; 2], step_s: f64) {
+        let followed = 1.0 - (-step_s / self.lag_s).exp();
+        for ((rate, way), wanted) in self.rates.iter_mut().zip(&mut self.ways).zip(wanted) {
+            let before = *rate;
+            *rate += (wanted - *rate) * followed;
+            *way += f64::midpoint(before, *rate) * step_s;
+        }
     }
 
     fn compare(&mut self, moved: f64, step_s: f64, tolerance: &Tolerance) {
         let forgotten = (-step_s / FORGET_S).exp();
         let slack = tolerance.slack * step_s;
-        let lacking = self.way.signum() * (tolerance.share * self.way - moved);
-        self.missing = (self.missing * forgotten + lacking - slack).max(0.0);
-        let exceeding = self.way.signum() * (moved - tolerance.most * self.way);
-        self.excess = (self.excess * forgotten + exceeding - slack).max(0.0);
-        self.missing_slowly *= forgotten;
-        let is_slow = self.now.abs() < SLOW_SHARE * tolerance.full;
-        self.slow_for_s = if is_slow { self.slow_for_s + step_s } else { 0.0 };
-        if self.slow_for_s > SLOW_TIME_S {
-            self.missing_slowly += self.way - moved;
-        }
+        let [least, most] = self.ways;
+        self.below = (self.below * forgotten + least - moved - slack).max(0.0);
+        self.above = (self.above * forgotten + moved - most - slack).max(0.0);
     }
 }
 
 impl<const N: usize> Rate<N> {
-    pub(super) fn new(tolerance: Tolerance, answers: [Answer; N]) -> Self {
+    pub(super) fn new(tolerance: Tolerance, lags_s: [f64; N]) -> Self {
         Self {
             tolerance,
-            hypotheses: answers.map(Hypothesis::new),
-            asked: 0.0,
+            hypotheses: lags_s.map(|lag_s| Hypothesis::moving(lag_s, 0.0)),
             last: None,
             asks: false,
             is_new: true,
@@ -122,9 +84,15 @@ impl<const N: usize> Rate<N> {
     /// The stick asks for a rate, for a time.
     pub(super) fn follow(&mut self, wanted: f64, step_s: f64) {
         self.asks |= wanted != 0.0;
-        let mut ways = self.hypotheses.iter_mut().map(|its| its.follow(wanted, step_s));
-        self.asked += ways.next().unwrap_or(0.0);
-        ways.for_each(drop);
+        let Tolerance { gains: [least, most], down, .. } = self.tolerance;
+        let wanted = if wanted < 0.0 {
+            [most * down * wanted, least * wanted]
+        } else {
+            [least * wanted, most * wanted]
+        };
+        for its in &mut self.hypotheses {
+            its.follow(wanted, step_s);
+        }
     }
 
     /// Compares a measurement with what was asked for in the `step_s` since the last one. With its stick at rest the drone
@@ -132,60 +100,37 @@ impl<const N: usize> Rate<N> {
     pub(super) fn compare(&mut self, value: f64, step_s: f64, difference: fn(f64) -> f64) {
         let Some(last) = self.last.replace(value) else { return };
         let moved = difference(value - last);
+        let is_judged = std::mem::take(&mut self.asks);
         if std::mem::take(&mut self.is_new) {
-            self.begin(moved / step_s.max(f64::EPSILON));
+            // The drone follows its stick from now on, and moves at this rate.
+            let rate = moved / step_s.max(f64::EPSILON);
+            self.hypotheses = self.hypotheses.map(|its| Hypothesis::moving(its.lag_s, rate));
             return;
         }
-        let Tolerance { jump, jump_1_s, missing, missing_slowly, .. } = self.tolerance;
-        let off = self.hypotheses.iter().map(|its| (moved - its.way).abs());
-        let jumped = off.fold(f64::INFINITY, f64::min) > jump + jump_1_s * step_s;
-        let is_judged = std::mem::take(&mut self.asks) && !jumped;
         for its in &mut self.hypotheses {
             if is_judged {
                 its.compare(moved, step_s, &self.tolerance);
             }
-            its.way = 0.0;
+            its.ways = [0.0; 2];
         }
-        if !is_judged {
-            return;
+        if is_judged {
+            let enough = self.tolerance.enough;
+            let is_missing = self.hypotheses.iter().all(|its| its.below > enough)
+                || self.hypotheses.iter().all(|its| its.above > enough);
+            self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };
         }
-        let all = |is: fn(&Hypothesis, f64) -> bool, most: f64| {
-            self.hypotheses.iter().all(|its| is(its, most))
-        };
-        let is_missing = all(|its, most| its.missing > most, missing)
-            || all(|its, most| its.excess > most, missing)
-            || all(|its, most| its.missing_slowly > most, missing_slowly)
-            || all(|its, most| its.missing_slowly < -most, missing_slowly);
-        self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };
-    }
-
-    /// The drone follows its stick from now on, and moves at this rate.
-    fn begin(&mut self, rate: f64) {
-        self.asks = false;
-        for its in &mut self.hypotheses {
-            let most = self.tolerance.full * its.answer.down;
-            *its = Hypothesis { now: rate.clamp(-most, most), ..Hypothesis::new(its.answer) };
-        }
-    }
-
-    /// Change that the stick has asked for since the flight began.
-    pub(super) fn asked(&self) -> f64 {
-        self.asked
     }
 
     pub(super) fn is_missing(&self) -> bool {
-        self.missing_for_s >= MISSING_TIME_S
+        self.missing_for_s >= LASTS_S
     }
 
     /// The drone moves by itself, and measures a value.
     pub(super) fn rest(&mut self, value: f64) {
-        self.hypotheses = self.hypotheses.map(|its| Hypothesis::new(its.answer));
+        self.hypotheses = self.hypotheses.map(|its| Hypothesis::moving(its.lag_s, 0.0));
         self.asks = false;
         self.is_new = true;
         self.missing_for_s = 0.0;
         self.last = Some(value);
     }
 }
-
-#[cfg(test)]
-mod tests;

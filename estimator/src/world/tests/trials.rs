@@ -2,7 +2,7 @@
 
 use super::frames::{Drone, STEP_S, TAG, surveyed};
 use super::*;
-use crate::tags::{CAUTIOUS_S, History, OdometryStep};
+use crate::world::{CAUTIOUS_S, History, OdometryStep};
 
 /// The sightings of a new tag that correct the position, of a dozen.
 fn correcting(cautious_until_s: f64) -> Vec<u32> {

@@ -12,6 +12,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
+use crate::sensor::{FLOW_SCALE, GATE};
 use kinematics::{world_from_body, wrap_deg, wrap_rad};
 
 const PLACE: usize = 0;
@@ -44,14 +45,10 @@ const SIGHT_HEIGHT: f64 = 0.03;
 const SIGHT_ASIDE: f64 = 0.06;
 const SIGHT_AGE_S: f64 = 0.06;
 const SIGHT_M: f64 = 0.01;
-/// Standard deviation of the flow's scale, as a fraction of the distance since the last fix.
-const SCALE: f64 = 0.06;
 /// Standard deviation of one orientation.
 const ORIENTATION_DEG: f64 = 8.0;
 /// Standard deviation of a mean orientation.
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
-/// Gate in standard deviations, beyond which a sighting is of something else.
-const GATE: f64 = 5.0;
 
 /// Correction to be added to the odometry.
 #[derive(Debug, Clone, Copy)]
@@ -230,7 +227,7 @@ impl Filter {
             from_drone_m,
             camera_m,
             variance_m2: parts.iter().map(|part| part * part).sum(),
-            scale_m2: (SCALE * way_m).powi(2),
+            scale_m2: (FLOW_SCALE * way_m).powi(2),
         }
     }
 

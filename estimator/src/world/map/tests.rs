@@ -1,6 +1,6 @@
 use super::*;
-use crate::tags::camera::Look;
-use crate::tags::history::Moment;
+use crate::world::camera::Look;
+use crate::world::history::Moment;
 
 const NONE: [bool; SLOTS] = [false; SLOTS];
 

@@ -26,16 +26,16 @@ impl Direction {
 }
 
 impl Map {
-    pub(in crate::tags) fn has_heading(&self, tag: usize) -> bool {
+    pub(in crate::world) fn has_heading(&self, tag: usize) -> bool {
         self.slots[tag].direction == Direction::Known
     }
 
-    pub(in crate::tags) fn learnt_heading(&mut self, tag: usize) {
+    pub(in crate::world) fn learnt_heading(&mut self, tag: usize) {
         self.slots[tag].direction = Direction::Known;
     }
 
     /// The sign of orientations was wrong: discards the directions that were derived from them.
-    pub(in crate::tags) fn forget_found_headings(&mut self) {
+    pub(in crate::world) fn forget_found_headings(&mut self) {
         for slot in &mut self.slots {
             // With the wrong sign every tag seems to turn with the drone.
             slot.turned_deg = 0.0;
@@ -47,7 +47,7 @@ impl Map {
 
     /// Adds the difference between a sighting's direction and the known one, with the standard deviation of the
     /// heading. Returns whether their mean shows that the tag turns.
-    pub(in crate::tags) fn watch_direction(
+    pub(in crate::world) fn watch_direction(
         &mut self,
         tag: usize,
         off_deg: f64,
@@ -60,12 +60,12 @@ impl Map {
     }
 
     /// Whether a tag was turned, so that its direction is not used.
-    pub(in crate::tags) fn was_turned(&self, tag: usize) -> bool {
+    pub(in crate::world) fn was_turned(&self, tag: usize) -> bool {
         self.slots[tag].direction == Direction::Distrusted
     }
 
     /// A tag was turned: its direction is not used any more.
-    pub(in crate::tags) fn distrust_direction(&mut self, tag: usize) {
+    pub(in crate::world) fn distrust_direction(&mut self, tag: usize) {
         self.slots[tag].direction = Direction::Distrusted;
     }
 }

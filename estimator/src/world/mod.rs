@@ -1,4 +1,4 @@
-//! Transform from the odometry to the world frame, from roundels on the floor.
+//! Where the odometry's frame lies in the world, how well that is known, and the roundels on the floor that show it.
 //!
 //! The odometry remains the integral of the velocity: smooth, in a frame that drifts. This module estimates
 //! position and direction of that frame in the world: `world = odometry + correction`, rotated by a heading
@@ -6,7 +6,7 @@
 //! nothing has to be rolled back. The world frame is that of the start: right and forward of the drone's
 //! initial position.
 //!
-//! Jumps of the correction do not reach the controller at once: see [`Tags::smooth`].
+//! Jumps of the correction do not reach the controller at once: see [`World::smooth`].
 
 mod camera;
 mod filter;
@@ -32,6 +32,7 @@ use self::map::Map;
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
+use crate::sensor::FLOW_SCALE;
 use kinematics::{body_from_world, world_from_body};
 
 /// Maximum number of known tags.
@@ -127,6 +128,8 @@ const STANDS_M: f64 = 0.1;
 const MOST_BIAS_M_S: f64 = 0.09;
 /// After a tag was seen to move, tags need more sightings for this long.
 const CAUTIOUS_S: f64 = 30.0;
+/// Standard deviation of the heading that each step of the compass leaves.
+const HEADING_STEP_DEG: f64 = 2.0;
 /// Time since a sighting during which a tag counts as in view.
 const IN_VIEW_S: f64 = 0.5;
 /// A tag is due that these errors of the position leave in the picture, from a drone this high and no faster: its picture
@@ -135,10 +138,11 @@ const DUE_DEVIATIONS: f64 = 4.0;
 const DUE_LOWEST_M: f64 = 0.7;
 const DUE_SLOW_M_S: f64 = 0.5;
 
-/// Correction of the odometry.
+/// The odometry's frame in the world, with the one covariance of all that is known of it, whether there are tags or not.
 #[derive(Debug, Clone)]
-pub(crate) struct Tags {
-    config: TagConfig,
+pub(crate) struct World {
+    /// `None` if tags are not used.
+    config: Option<TagConfig>,
     filter: Filter,
     map: Map,
     orientation: Orientation,
@@ -182,15 +186,15 @@ pub(crate) struct OdometryStep {
     pub(crate) unseen_m2: f64,
 }
 
-impl Tags {
-    pub(crate) fn new(config: &TagConfig) -> Self {
-        let surveyed = config.surveyed.iter().any(Option::is_some);
-        let mut filter = Filter::new(surveyed);
-        let map = Map::new(&config.surveyed, &mut filter);
+impl World {
+    pub(crate) fn new(config: Option<&TagConfig>) -> Self {
+        let surveyed = config.map_or([None; MAX_TAGS], |config| config.surveyed);
+        let mut filter = Filter::new(surveyed.iter().any(Option::is_some));
+        let map = Map::new(&surveyed, &mut filter);
         Self {
             filter,
             map,
-            orientation: Orientation::new(config.orientation),
+            orientation: Orientation::new(config.and_then(|config| config.orientation)),
             history: History::new(),
             take_back: TakeBack::default(),
             last_sights: [None; MAX_SIGHTS],
@@ -199,7 +203,7 @@ impl Tags {
             unseen_m2: 0.0,
             has_risen: false,
             given_up: 0,
-            config: *config,
+            config: config.copied(),
         }
     }
 
@@ -248,9 +252,9 @@ impl Tags {
         self.has_risen &= step.airborne;
     }
 
-    /// The compass made a step, which was compensated with this deviation.
-    pub(crate) fn step_of_the_heading(&mut self, deviation_deg: f64) {
-        self.filter.doubt_heading(deviation_deg.to_radians());
+    /// The compass made a step, which was compensated.
+    pub(crate) fn step_of_the_heading(&mut self) {
+        self.filter.doubt_heading(HEADING_STEP_DEG.to_radians());
     }
 
     /// The drone has restarted: its earlier data are obsolete.
@@ -268,6 +272,7 @@ impl Tags {
         turn_deg_s: f64,
         airborne: bool,
     ) {
+        let Some(config) = self.config else { return };
         let mut newest = [None; MAX_SIGHTS];
         for (slot, sight) in newest.iter_mut().zip(sights) {
             *slot = Some(*sight);
@@ -277,7 +282,7 @@ impl Tags {
             return;
         }
         let Some(made_s) = self.history.newest_s() else { return };
-        let at_s = made_s - self.config.delay.as_secs_f64();
+        let at_s = made_s - config.delay.as_secs_f64();
         let Some(moment) = self.history.at(at_s, yaw_deg(at_s)) else { return };
         if moment.height_m < LOWEST_M || turn_deg_s.abs() > FASTEST_TURN_DEG_S {
             return;
@@ -286,7 +291,7 @@ impl Tags {
         let before = self.filter.correction();
         let mut seen = [false; SLOTS];
         for sight in newest.iter().flatten() {
-            if let Some(look) = Look::new(sight, &moment, &self.config) {
+            if let Some(look) = Look::new(sight, &moment, &config) {
                 self.take_in(&look, &moment, made_s, &mut seen);
             }
         }
@@ -367,22 +372,17 @@ impl Tags {
         yaw_deg + self.filter.correction().heading_rad.to_degrees()
     }
 
-    /// Whether a known tag has been seen.
-    pub(crate) fn has_fix(&self) -> bool {
-        self.fix.is_some()
-    }
-
     /// Standard deviation of the position on the worse axis, at this odometry and height, without the
     /// contribution of silence.
     pub(crate) fn deviation_m(&self, odometry_m: Vector2<f64>, height_m: f64) -> f64 {
-        /// Standard deviation of the flow's scale, as a fraction of the distance since the last sighting.
-        const SCALE: f64 = 0.06;
         /// Tilt, delay and the picture's centre do not average out: a fraction of the height.
         const SYSTEMATIC: f64 = 0.012;
         const FLOOR_M: f64 = 0.015;
-        let way_m = self.fix.map_or(odometry_m.norm(), |fix| (odometry_m - fix.odometry_m).norm());
-        let parts = [FLOOR_M, SCALE * way_m, SYSTEMATIC * height_m];
-        let squares: f64 = parts.iter().map(|part| part * part).sum();
+        let (way_m, tilted_m) = match self.fix {
+            Some(fix) => ((odometry_m - fix.odometry_m).norm(), SYSTEMATIC * height_m),
+            None => (odometry_m.norm(), 0.0),
+        };
+        let squares = FLOOR_M.powi(2) + (FLOW_SCALE * way_m).powi(2) + tilted_m.powi(2);
         (self.filter.place_variance_m2() + squares).sqrt()
     }
 
@@ -403,20 +403,23 @@ impl Tags {
         (place_m - left.place_m(), velocity_m_s - left.rate_m_s(), yaw_deg - left.heading_deg())
     }
 
-    pub(crate) fn status(&self, now_s: f64) -> TagStatus {
-        TagStatus {
+    /// The known tags; `None` if tags are not used.
+    pub(crate) fn status(&self, now_s: f64) -> Option<TagStatus> {
+        self.config.as_ref()?;
+        Some(TagStatus {
             known: self.map.known_tags(&self.filter, now_s),
             seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
             heading_held: self.orientation.sign().is_some(),
             drift_m: -self.filter.correction().place_m,
             given_up: self.given_up,
             is_due: false,
-        }
+        })
     }
 
     /// Whether a known tag should be in the picture of a drone at this moment, wherever within [`DUE_DEVIATIONS`] of this
     /// deviation it is.
     pub(crate) fn is_due(&self, now_s: f64, moment_yaw_deg: f64, deviation_m: f64) -> bool {
+        let Some(config) = &self.config else { return false };
         let Some(moment) = self.history.at(now_s, moment_yaw_deg) else { return false };
         if moment.height_m < DUE_LOWEST_M || moment.speed_m_s > DUE_SLOW_M_S {
             return false;
@@ -426,7 +429,7 @@ impl Tags {
         known.iter().any(|tag| {
             let offset_m = body_from_world(tag.place_m - here_m, yaw_deg);
             let margin_m = DUE_DEVIATIONS * deviation_m.hypot(tag.deviation_m);
-            camera::is_surely_whole(offset_m, margin_m, &moment, &self.config)
+            camera::is_surely_whole(offset_m, margin_m, &moment, config)
         })
     }
 

@@ -17,7 +17,7 @@ const SURVEY_DEG: f64 = 2.0;
 impl Filter {
     /// Adds a tag at the position where it was seen; its error is correlated with that of the drone's
     /// position.
-    pub(in crate::tags) fn begin_tag(&mut self, tag: usize, sighted: &Sighted) {
+    pub(in crate::world) fn begin_tag(&mut self, tag: usize, sighted: &Sighted) {
         let state = TAGS + 3 * tag;
         self.used = self.used.max(state + 3);
         for axis in 0..3 {
@@ -42,7 +42,7 @@ impl Filter {
     }
 
     /// Adds a tag with a known position.
-    pub(in crate::tags) fn survey_tag(
+    pub(in crate::world) fn survey_tag(
         &mut self,
         tag: usize,
         place_m: Vector2<f64>,
@@ -69,7 +69,7 @@ impl Filter {
     /// The world is now given by surveyed tags and no longer by the start of the drone, which stood there with
     /// the accuracy of its placement: everything known may be displaced and turned together. The drone is at
     /// `place_m`.
-    pub(in crate::tags) fn doubt_frame(&mut self, place_m: Vector2<f64>) {
+    pub(in crate::world) fn doubt_frame(&mut self, place_m: Vector2<f64>) {
         let mut displaced = [[0.0; STATES]; 2];
         let mut turned = [0.0; STATES];
         // A clockwise turn about the origin moves what is forward to the right.
@@ -97,7 +97,7 @@ impl Filter {
 
     /// A known tag was surveyed: corrects the state by its position and, if it was measured, its direction.
     /// `has_heading`: whether its direction is known.
-    pub(in crate::tags) fn correct_by_survey(
+    pub(in crate::world) fn correct_by_survey(
         &mut self,
         tag: usize,
         place_m: Vector2<f64>,
@@ -120,7 +120,7 @@ impl Filter {
     }
 
     /// Adds the direction of a tag: its mean by the estimated heading.
-    pub(in crate::tags) fn begin_heading(&mut self, tag: usize, direction_rad: f64) {
+    pub(in crate::world) fn begin_heading(&mut self, tag: usize, direction_rad: f64) {
         let state = TAGS + 3 * tag + 2;
         self.forget(state, 0.0);
         for other in 0..self.used {
@@ -133,12 +133,12 @@ impl Filter {
     }
 
     /// Sets the number of tags in use.
-    pub(in crate::tags) fn use_tags(&mut self, tags: usize) {
+    pub(in crate::world) fn use_tags(&mut self, tags: usize) {
         self.used = TAGS + 3 * tags;
     }
 
     /// Removes a tag.
-    pub(in crate::tags) fn forget_tag(&mut self, tag: usize) {
+    pub(in crate::world) fn forget_tag(&mut self, tag: usize) {
         for axis in 0..3 {
             self.forget(TAGS + 3 * tag + axis, 0.0);
         }

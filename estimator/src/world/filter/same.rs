@@ -2,19 +2,20 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Filter, GATE, Row, SCALE, STATES, TAGS, squared_deviations};
+use super::{Filter, Row, STATES, TAGS, squared_deviations};
+use crate::sensor::{FLOW_SCALE, GATE};
 
 /// All tags look alike: the squared deviations of a rival must be larger by the square of this.
 const CLEAR: f64 = 3.0;
 
 impl Filter {
     /// Whether two tags may be one, `way_m` from the last sighting.
-    pub(in crate::tags) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
+    pub(in crate::world) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
         self.squared_deviations(one, other, way_m) < GATE * GATE
     }
 
     /// Whether a tag is this one rather than a rival, `way_m` from the last sighting.
-    pub(in crate::tags) fn is_rather(
+    pub(in crate::world) fn is_rather(
         &self,
         tag: usize,
         this: usize,
@@ -28,7 +29,7 @@ impl Filter {
     /// Logarithm of the odds, by their positions, that two tags are one and not a known tag and one that is not
     /// in the map yet, `way_m` from the last sighting. The larger the uncertainty, the more room there is for
     /// others, of which `others_1_m2` are expected per square metre.
-    pub(in crate::tags) fn log_odds_of_one(
+    pub(in crate::world) fn log_odds_of_one(
         &self,
         one: usize,
         other: usize,
@@ -54,7 +55,7 @@ impl Filter {
     }
 
     /// Merges two tags that are one.
-    pub(in crate::tags) fn make_one(&mut self, one: usize, other: usize, way_m: f64) {
+    pub(in crate::world) fn make_one(&mut self, one: usize, other: usize, way_m: f64) {
         let off = self.tag_place_m(one) - self.tag_place_m(other);
         self.correct_two(&Self::same_rows(one, other), off, same_variance_m2(way_m));
     }
@@ -72,5 +73,5 @@ impl Filter {
 /// Variance that the flow's scale adds between two sightings of the same tag.
 pub(super) fn same_variance_m2(way_m: f64) -> f64 {
     const SAME_M: f64 = 0.02;
-    SAME_M * SAME_M + (SCALE * way_m).powi(2)
+    SAME_M * SAME_M + (FLOW_SCALE * way_m).powi(2)
 }

@@ -2,20 +2,20 @@
 
 use super::directions::Direction;
 use super::{Map, Slot, Standing, is_known, is_on_trial};
-use crate::tags::filter::Filter;
-use crate::tags::{MAX_TAGS, SurveyedTag};
+use crate::world::filter::Filter;
+use crate::world::{MAX_TAGS, SurveyedTag};
 
 /// A tag that is surveyed in flight is taken for a known one within half the least distance between tags.
 const SAME_M: f64 = 0.75;
 
 impl Map {
     /// Whether a position was given for one of the known tags.
-    pub(in crate::tags) fn has_surveyed(&self) -> bool {
+    pub(in crate::world) fn has_surveyed(&self) -> bool {
         self.slots.iter().any(|slot| slot.surveyed)
     }
 
     /// Whether there is room for tags that are surveyed in flight.
-    pub(in crate::tags) fn has_room_for(&self, filter: &Filter, tags: &[SurveyedTag]) -> bool {
+    pub(in crate::world) fn has_room_for(&self, filter: &Filter, tags: &[SurveyedTag]) -> bool {
         let is_new = |tag: &&SurveyedTag| self.nearest_within(filter, tag, SAME_M).is_none();
         self.known() + tags.iter().filter(is_new).count() <= MAX_TAGS
     }
@@ -23,7 +23,7 @@ impl Map {
     /// Adds a tag that is surveyed in flight. A known one near it is taken to be the same: if its position was
     /// found, it now has the surveyed one; if it was surveyed, it keeps its own. Returns its slot if it is new
     /// there.
-    pub(in crate::tags) fn survey(
+    pub(in crate::world) fn survey(
         &mut self,
         filter: &mut Filter,
         tag: &SurveyedTag,

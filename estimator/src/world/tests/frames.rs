@@ -1,8 +1,8 @@
 //! The world frame, what moves it, and what does not.
 
 use super::*;
-use crate::tags::{
-    FASTEST_TURN_DEG_S, LOWEST_M, MAX_SIGHTS, OdometryStep, OrientationSign, STANDS_M, Tags,
+use crate::world::{
+    FASTEST_TURN_DEG_S, LOWEST_M, MAX_SIGHTS, OdometryStep, OrientationSign, STANDS_M, World,
 };
 use kinematics::{body_from_world, world_from_body};
 
@@ -16,7 +16,7 @@ fn assert_same(vector: Vector2<f64>, expected: Vector2<f64>) {
 
 /// A drone above surveyed tags, whose odometry started aside, is turned and has a bias.
 pub(super) struct Drone {
-    pub(super) tags: Tags,
+    pub(super) tags: World,
     pub(super) now_s: f64,
     pub(super) odometry_m: Vector2<f64>,
     pub(super) place_m: Vector2<f64>,
@@ -43,7 +43,7 @@ pub(super) fn surveyed() -> TagConfig {
 impl Drone {
     pub(super) fn new(config: &TagConfig) -> Self {
         Self {
-            tags: Tags::new(config),
+            tags: World::new(config),
             now_s: 0.0,
             odometry_m: Vector2::new(0.15, -0.1),
             place_m: Vector2::zeros(),
@@ -235,7 +235,7 @@ fn a_step_of_the_compass_makes_a_far_tag_uncertain() {
     // The compass has stepped by 3 degrees, of which the tag knows.
     let mut stepped = drone.tags.clone();
     stepped.step_of_the_heading(2.0);
-    let turn_by = |tags: &mut Tags, now_s: f64| {
+    let turn_by = |tags: &mut World, now_s: f64| {
         let sight =
             Sight { orientation_deg: drone.sight(0.3).orientation_deg + 3.0, ..drone.sight(0.3) };
         let step = OdometryStep { made_s: now_s, at_s: now_s - 0.06, ..drone.step() };

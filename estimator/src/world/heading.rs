@@ -2,14 +2,14 @@
 
 use kinematics::wrap_deg;
 
-use super::Tags;
+use super::World;
 use super::camera::Look;
 use super::history::Moment;
 
 /// Five standard deviations of the compass's drift.
 const MOST_RATE_DEG_S: f64 = 0.15;
 
-impl Tags {
+impl World {
     /// Corrects the heading by a tag's orientation, once its sign is known.
     pub(super) fn orient(&mut self, tag: usize, look: &Look, moment: &Moment) {
         let heading_deg = moment.yaw_deg + self.filter.correction().heading_rad.to_degrees();

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::OrientationSign;
-use crate::tags::MAX_TAGS;
-use crate::tags::filter::Filter;
-use crate::tags::map::Map;
+use crate::world::MAX_TAGS;
+use crate::world::filter::Filter;
+use crate::world::map::Map;
 
 /// A drone that has hovered above a tag for a minute.
 fn settled(surveyed: bool) -> Bench {
