@@ -5,11 +5,12 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
+use system_tests::airframes::Fleet;
 
 use crate::{
-    campaign, cross_checks, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target,
-    verify,
+    campaign, compare, cross_checks, fly, healthy, mavlink, mutants, sensors, soak, streams, tags,
+    target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -18,6 +19,25 @@ use crate::{
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+}
+
+/// Airframes, by the words of the command line.
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum Airframes {
+    /// The four published ones
+    #[default]
+    Published,
+    /// Others: each parameter drawn by the seed within 40 % of that of a published one
+    Any,
+}
+
+impl From<Airframes> for Fleet {
+    fn from(airframes: Airframes) -> Self {
+        match airframes {
+            Airframes::Published => Self::Published,
+            Airframes::Any => Self::Any,
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -42,6 +62,9 @@ enum Command {
         /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: Airframes,
     },
     /// Fly healthy drones on links that lose and delay datagrams, and list those that were landed without need
     Healthy {
@@ -67,6 +90,20 @@ enum Command {
         /// Of the listed failures only those with this in their name
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: Airframes,
+        /// Write one line for each flight to this file
+        #[arg(long, value_name = "FILE")]
+        csv: Option<PathBuf>,
+    },
+    /// Compare the same flights of two builds, as `sensors --csv` writes them; fails if a judged row has more that led too
+    /// far
+    Compare {
+        /// File of the build before
+        before: PathBuf,
+        /// File of the build after
+        after: PathBuf,
     },
     /// Give random streams of orders, 1 to 400 each second, and report how far they led the drone; fails if one led
     /// outside the fence, or further than a single order does
@@ -161,11 +198,21 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
             let times = flown_s / start.elapsed().as_secs_f64();
             (format!("{table}{flown_s:.0} s flown, {times:.0} times as fast as real\n"), true)
         }
-        Command::Campaign { flights, first } => campaign::run(flights, first)?,
-        Command::Healthy { flights, first } => healthy::run(flights, first)?,
-        Command::Sensors { seeds, random, first, only } => {
-            sensors::run(seeds, only.as_deref(), first..first.saturating_add(random))?
+        Command::Campaign { flights, first, airframe } => {
+            campaign::run(airframe.into(), flights, first)?
         }
+        Command::Healthy { flights, first } => healthy::run(flights, first)?,
+        Command::Sensors { seeds, random, first, only, airframe, csv } => {
+            let randoms = first..first.saturating_add(random);
+            let request = sensors::Request { fleet: airframe.into(), seeds, only, randoms };
+            let report = sensors::run(&request)?;
+            if let Some(path) = csv {
+                compare::write(&path, &report.lines)?;
+            }
+            let good = report.is_good();
+            (report.text, good)
+        }
+        Command::Compare { before, after } => compare::run(&before, &after)?,
         Command::Streams { streams, first } => streams::run(streams, first)?,
         Command::CrossChecks { flights, first } => cross_checks::run(flights, first)?,
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,

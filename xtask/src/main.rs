@@ -4,6 +4,7 @@
 mod campaign;
 mod cases;
 mod command_line;
+mod compare;
 mod cross_checks;
 mod edit;
 mod fly;
