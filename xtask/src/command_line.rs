@@ -66,7 +66,8 @@ enum Command {
         #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
         airframe: Airframes,
     },
-    /// Fly healthy drones on links that lose and delay datagrams, and list those that were landed without need
+    /// Fly healthy drones on links that lose and delay datagrams, above boxes and in gusts, and tell which were landed
+    /// without need; fails if more than one in a thousand was
     Healthy {
         /// How many flights
         #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..))]
@@ -74,6 +75,9 @@ enum Command {
         /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: Airframes,
     },
     /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
     /// far
@@ -201,7 +205,9 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         Command::Campaign { flights, first, airframe } => {
             campaign::run(airframe.into(), flights, first)?
         }
-        Command::Healthy { flights, first } => healthy::run(flights, first)?,
+        Command::Healthy { flights, first, airframe } => {
+            healthy::run(airframe.into(), flights, first)?
+        }
         Command::Sensors { seeds, random, first, only, airframe, csv } => {
             let randoms = first..first.saturating_add(random);
             let request = sensors::Request { fleet: airframe.into(), seeds, only, randoms };
