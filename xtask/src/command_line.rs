@@ -158,6 +158,22 @@ enum Command {
         #[arg(long, value_name = "K/N", requires = "all")]
         shard: Option<String>,
     },
+    /// Fly the pilot without one piece of evidence against its sensors after the other, with failing sensors and with healthy
+    /// ones; fails if one is not missed
+    Ablation {
+        /// Seeds of each failure in each situation on each airframe
+        #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=1_000))]
+        seeds: u64,
+        /// How many random failures besides
+        #[arg(long, value_name = "N", default_value_t = 1000)]
+        random: u64,
+        /// How many healthy flights
+        #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+        healthy: u64,
+        /// Only pieces with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+    },
     /// Fly over UDP, as processes, with random faults, signals, floods and closed output; fails if a
     /// drone was left in the air
     Soak(soak::Arguments),
@@ -224,6 +240,10 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
         Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,
         Command::Mutants { flights, only, .. } => mutants::by_hand(flights, only.as_deref())?,
+        Command::Ablation { seeds, random, healthy, only } => {
+            let flights = mutants::ablation::Flights { seeds, random, healthy };
+            mutants::ablation::run(flights, only.as_deref())?
+        }
         Command::Soak(arguments) => soak::run(&arguments)?,
         Command::Verify { only_proofs } => verify::run(only_proofs)?,
         Command::Target => target::run()?,

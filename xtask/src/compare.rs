@@ -88,7 +88,7 @@ fn by_key(path: &Path) -> Result<BTreeMap<Key, Line>, CompareError> {
 
 /// What changed in the flights of one row.
 #[derive(Debug, Default)]
-struct Change {
+pub(crate) struct Change {
     judged: bool,
     pairs: usize,
     too_far: [usize; 2],
@@ -100,6 +100,25 @@ struct Change {
 }
 
 impl Change {
+    /// What changed in all flights that are judged.
+    pub(crate) fn of_judged(before: &[Line], after: &[Line]) -> Self {
+        let mut change = Self::default();
+        pairs(before, after).for_each(|pair| change.see(pair));
+        change
+    }
+
+    /// Whether more were led too far.
+    pub(crate) fn led_further(&self) -> bool {
+        self.too_far[1] > self.too_far[0]
+    }
+
+    /// How many of the flights after it led too far, newly and no longer, how many were noticed, and how soon.
+    pub(crate) fn after(&self) -> String {
+        let Self { too_far, newly, no_longer, noticed, .. } = self;
+        let median_s = median(&self.reactions_s[1]).unwrap_or(f64::NAN);
+        format!("{:>9}{newly:>8}{no_longer:>8}{:>10}{median_s:>11.2}", too_far[1], noticed[1])
+    }
+
     fn see(&mut self, lines: [&Line; 2]) {
         let [before, after] = lines;
         self.judged |= before.judged || after.judged;
@@ -117,7 +136,7 @@ impl Change {
     }
 
     fn is_worse(&self) -> bool {
-        self.judged && self.too_far[1] > self.too_far[0]
+        self.judged && self.led_further()
     }
 
     fn medians_s(&self) -> [Option<f64>; 2] {
@@ -142,6 +161,23 @@ impl Change {
         let [before_s, after_s] = self.medians_s();
         self.newly + self.no_longer > 0 || self.noticed[0] != self.noticed[1] || before_s != after_s
     }
+}
+
+/// The same judged flights of two builds.
+fn pairs<'a>(before: &'a [Line], after: &'a [Line]) -> impl Iterator<Item = [&'a Line; 2]> {
+    let after: BTreeMap<Key, &Line> = after.iter().map(|line| (line.key(), line)).collect();
+    let judged = before.iter().filter(|line| line.judged);
+    judged.filter_map(move |line| Some([line, *after.get(&line.key())?]))
+}
+
+/// The judged row with the most flights that newly led too far, and how many these are.
+pub(crate) fn most_newly_too_far(before: &[Line], after: &[Line]) -> String {
+    let mut rows: BTreeMap<&str, usize> = BTreeMap::new();
+    for [before, after] in pairs(before, after) {
+        *rows.entry(&after.row).or_default() += usize::from(!before.too_far && after.too_far);
+    }
+    let most = rows.into_iter().max_by_key(|(_, newly)| *newly).filter(|(_, newly)| *newly > 0);
+    most.map_or_else(String::new, |(row, newly)| format!("{row} ({newly})"))
 }
 
 /// The middle one; of two in the middle the smaller.
@@ -273,6 +309,14 @@ mod tests {
             text.contains("newly too far: a: rec holding, seed 2\n1 flights are only"),
             "{text}"
         );
+
+        let lines = [&before, &after].map(|path| read(path).unwrap());
+        let [before_lines, after_lines] = &lines;
+        assert_eq!(most_newly_too_far(before_lines, after_lines), "a (1)");
+        let change = Change::of_judged(before_lines, after_lines);
+        let words: Vec<_> = change.after().split_whitespace().map(str::to_owned).collect();
+        assert_eq!(words, ["1", "1", "1", "2", "1.00"]);
+        assert!(!change.led_further());
 
         let worse = file("worse", &[line("a", 2, true, None)]);
         assert!(!run(&before, &worse).unwrap().1);
