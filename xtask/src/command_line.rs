@@ -9,8 +9,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use system_tests::airframes::Fleet;
 
 use crate::{
-    campaign, compare, cross_checks, fly, healthy, mavlink, mutants, sensors, soak, streams, tags,
-    target, verify,
+    campaign, compare, cross_checks, fly, healthy, mavlink, mutants, rules, sensors, soak, streams,
+    tags, target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -158,8 +158,10 @@ enum Command {
         #[arg(long, value_name = "K/N", requires = "all")]
         shard: Option<String>,
     },
-    /// Fly the pilot without one piece of evidence against its sensors after the other, with failing sensors and with healthy
-    /// ones; fails if one is not missed
+    /// Fly where a single rule keeps the drone safe, and list what did not end as it must
+    Rules,
+    /// Fly the pilot without one piece of evidence against its sensors after the other, with failing sensors, with healthy
+    /// ones and for the rules; fails if one is not missed
     Ablation {
         /// Seeds of each failure in each situation on each airframe
         #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=1_000))]
@@ -240,6 +242,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
         Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,
         Command::Mutants { flights, only, .. } => mutants::by_hand(flights, only.as_deref())?,
+        Command::Rules => rules::run()?,
         Command::Ablation { seeds, random, healthy, only } => {
             let flights = mutants::ablation::Flights { seeds, random, healthy };
             mutants::ablation::run(flights, only.as_deref())?

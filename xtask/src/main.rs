@@ -14,6 +14,7 @@ mod mavlink;
 mod mutants;
 mod parallel;
 mod plot;
+mod rules;
 mod score;
 mod sensors;
 mod soak;

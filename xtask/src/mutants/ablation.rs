@@ -1,5 +1,5 @@
-//! Whether each piece of evidence against the sensors is needed: the pilot without one of them, flown with failing sensors
-//! and with healthy ones.
+//! Whether each piece of evidence against the sensors is needed: the pilot without one of them, flown with failing sensors,
+//! with healthy ones, and where a single rule keeps the drone safe.
 
 use std::fmt::Write as _;
 use std::io;
@@ -141,10 +141,21 @@ struct Flown {
     lines: Vec<Line>,
     /// How many healthy ones were landed without need.
     landed: u64,
+    /// How many did not end as they must where a single rule keeps the drone safe.
+    broken: u64,
+}
+
+impl Flown {
+    /// Whether it is worse than another: more were led too far, more healthy ones landed, or more rules broken.
+    fn is_worse_than(&self, other: &Self) -> bool {
+        Change::of_judged(&other.lines, &self.lines).led_further()
+            || self.landed > other.landed
+            || self.broken > other.broken
+    }
 }
 
 /// Flies the pilot as it is, and without each piece of evidence that has `only` in its name. The second value is whether
-/// each is missed: more drones are led too far, or more healthy ones are landed.
+/// each is missed.
 pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool), MutantsError> {
     let wanted = |evidence: &&Evidence| only.is_none_or(|only| evidence.name.contains(only));
     let evidence: Vec<&Evidence> = EVIDENCE.iter().filter(wanted).collect();
@@ -157,14 +168,15 @@ pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool)
     }
     let with_all = flown(&workspace, "the code as it is", flights)?;
     let mut text = format!(
-        "{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}  most in\n{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}\n",
+        "{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}{:>8}  most in\n{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}{:>8}\n",
         "without",
         "too far",
         "newly",
         "no",
         "noticed",
         "reaction",
-        "healthy", //
+        "healthy",
+        "rules", //
         "",
         "",
         "",
@@ -172,6 +184,7 @@ pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool)
         "",
         "median, s",
         "landed",
+        "broken",
     );
     text += &row("(nothing)", &with_all, &with_all);
     print(&text);
@@ -183,8 +196,7 @@ pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool)
         workspace.restore(&changed)?;
         let line = match without_it {
             Ok(without_it) => {
-                let change = Change::of_judged(&with_all.lines, &without_it.lines);
-                let is_missed = change.led_further() || without_it.landed > with_all.landed;
+                let is_missed = without_it.is_worse_than(&with_all);
                 is_each_missed &= is_missed;
                 let line = row(evidence.name, &with_all, &without_it);
                 if is_missed { line } else { format!("{}  NOT MISSED\n", line.trim_end()) }
@@ -207,7 +219,7 @@ fn row(name: &str, with_all: &Flown, without_it: &Flown) -> String {
     let change = Change::of_judged(&with_all.lines, &without_it.lines);
     let most = compare::most_newly_too_far(&with_all.lines, &without_it.lines);
     let mut text = format!("{name:<50}{}", change.after());
-    _ = write!(text, "{:>9}  {most}", without_it.landed);
+    _ = write!(text, "{:>9}{:>8}  {most}", without_it.landed, without_it.broken);
     text.truncate(text.trim_end().len());
     text + "\n"
 }
@@ -243,17 +255,20 @@ fn flown(workspace: &Workspace, name: &str, flights: Flights) -> Result<Flown, M
     let mut failing = words(&["sensors", "--seeds", &seeds, "--random", &random, "--csv"]);
     failing.push(csv.display().to_string());
     run(&failing)?;
-    let broken = |what: String| MutantsError::BreaksOff { name: name.to_owned(), what };
-    let lines = compare::read(&csv).map_err(|error| broken(error.to_string()))?;
+    let breaks_off = |what: String| MutantsError::BreaksOff { name: name.to_owned(), what };
+    let lines = compare::read(&csv).map_err(|error| breaks_off(error.to_string()))?;
     let report = run(&words(&["healthy", "--flights", &healthy]))?;
-    let landed = landed(&report).ok_or_else(|| broken("no healthy flights".to_owned()))?;
-    Ok(Flown { lines, landed })
+    let landed = counted(&report, "landed without need");
+    let landed = landed.ok_or_else(|| breaks_off("no healthy flights".to_owned()))?;
+    let broken = counted(&run(&words(&["rules"]))?, "did not end as they must");
+    let broken = broken.ok_or_else(|| breaks_off("no flights for the rules".to_owned()))?;
+    Ok(Flown { lines, landed, broken })
 }
 
-/// How many were landed without need, by the last line of the report.
-fn landed(report: &str) -> Option<u64> {
-    let last = report.lines().rev().find(|line| line.ends_with("landed without need"))?;
-    last.split_whitespace().next()?.parse().ok()
+/// The number at the beginning of the line of a report that ends with `what`.
+fn counted(report: &str, what: &str) -> Option<u64> {
+    let line = report.lines().rev().find(|line| line.ends_with(what))?;
+    line.split_whitespace().next()?.parse().ok()
 }
 
 #[cfg(test)]
@@ -272,8 +287,9 @@ mod tests {
     }
 
     #[test]
-    fn the_landed_are_counted_by_the_report() {
-        assert_eq!(landed("a\n\n12 of 300 landed without need\ndone in 1 s\n"), Some(12));
-        assert_eq!(landed("done in 1 s\n"), None);
+    fn what_a_report_counts_is_at_the_beginning_of_its_line() {
+        let report = "a\n\n12 of 300 landed without need\ndone in 1 s\n";
+        assert_eq!(counted(report, "landed without need"), Some(12));
+        assert_eq!(counted(report, "must"), None);
     }
 }
