@@ -4,6 +4,7 @@
 //! until a fault is found. All: the mutants that `cargo mutants` generates from the safety-critical code,
 //! against the tests in simulated time (`.cargo/mutants.toml`).
 
+pub(crate) mod ablation;
 mod layers;
 mod list;
 mod workspace;
@@ -46,6 +47,14 @@ pub(crate) enum MutantsError {
         name: String,
         /// The compiler's output.
         text: String,
+    },
+    /// A variant that does not fly to the end tells nothing.
+    #[error("{name} breaks off: {what}")]
+    BreaksOff {
+        /// The variant.
+        name: String,
+        /// What it said.
+        what: String,
     },
     /// The unmodified code must pass, or else a failing mutant proves nothing.
     #[error("the code as it is does not pass: {0}")]
