@@ -15,8 +15,8 @@ const FORGOTTEN_1_S: f64 = 0.1;
 /// A disproved quantity stays so until as much would be forgotten, after the last evidence. The reaction is a hover, which
 /// asks for no motion that could confirm the quantity, and in which a false velocity is soon as small as the true one.
 const HOLDS_S: f64 = ENOUGH_S / FORGOTTEN_1_S;
-/// A step of the floor or the heading counts as this, because it is compensated.
-const STEP_S: f64 = ENOUGH_S / 2.0;
+/// A step of the floor or the heading counts as this, because it is compensated: both ends of a box in a row do no harm.
+const STEP_S: f64 = ENOUGH_S / 3.0;
 
 /// What shows that a quantity is wrong. Of several the first one is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -64,8 +64,6 @@ pub(crate) struct AltitudeFilter {
     rejected_m: f64,
     /// Time without data, beyond the usual interval, since the last accepted height.
     gap_s: f64,
-    /// The last accepted height was far from the expected one: it may have been a wrong echo.
-    doubtful: bool,
 }
 
 impl AltitudeFilter {
@@ -73,12 +71,11 @@ impl AltitudeFilter {
     const TIME_CONSTANT_S: f64 = 0.2;
     /// Time constant while it moves autonomously, which the model cannot predict.
     const TIME_CONSTANT_BY_ITSELF_S: f64 = 0.12;
-    /// Largest difference between a height and the expected one, of which both have the noise of the ultrasound
-    /// (`tum_ardrone` takes 0.11 m where the climb is known)...
-    const MAX_JUMP_M: f64 = GATE * std::f64::consts::SQRT_2 * ULTRASOUND_M;
-    /// ...plus this much per second since the last one, because the climb may have changed. In a gap a height that is
+    /// Largest difference between a height and the expected one, which is smooth...
+    const MAX_JUMP_M: f64 = GATE * ULTRASOUND_M;
+    /// ...besides what a climb that changed by this much since the last height makes of it. In a gap a height that is
     /// plausible only because of it is accepted when the next one agrees: the first may be a wrong echo.
-    const MAX_JUMP_M_S: f64 = 1.0;
+    const MAX_CHANGE_M_S: f64 = 1.0;
     /// Number of agreeing heights that make a step of the floor.
     const AGREEING: u32 = 4;
     /// Tolerance of the agreement, either of the heights or of their differences to the expected ones: the
@@ -108,16 +105,14 @@ impl AltitudeFilter {
             return self.begin(altitude_m);
         }
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s.min(USUAL_STEP_S);
         self.gap_s += (step_s - USUAL_STEP_S).max(0.0);
-        if surprise_m.abs() > allowed_m {
+        if surprise_m.abs() > Self::allowed_m(step_s.min(USUAL_STEP_S)) {
             if self.unconfirmed {
                 return self.begin(altitude_m);
             }
-            return self.reject(surprise_m, allowed_m, expected);
+            return self.reject(surprise_m, expected);
         }
         self.gap_s = 0.0;
-        self.doubtful = surprise_m.abs() > allowed_m / 2.0;
         self.rejected = 0;
         self.unconfirmed = false;
         if step_s <= 0.0 {
@@ -137,8 +132,15 @@ impl AltitudeFilter {
         Echo::Good
     }
 
+    /// How far from the expected height that of a drone may be, which climbs differently since a time.
+    fn allowed_m(unseen_s: f64) -> f64 {
+        let [lag_s, _] = Airframe::CLIMB_LAGS_S;
+        let changed_s = unseen_s - lag_s * (1.0 - (-unseen_s / lag_s).exp());
+        Self::MAX_JUMP_M + Self::MAX_CHANGE_M_S * changed_s
+    }
+
     /// A height far from the expected one: a wrong echo, unless others agree with it.
-    fn reject(&mut self, surprise_m: f64, allowed_m: f64, expected: Vertical) -> Echo {
+    fn reject(&mut self, surprise_m: f64, expected: Vertical) -> Echo {
         let height_m = expected.height_m + surprise_m;
         let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M
             || (height_m - self.rejected_m).abs() <= Self::AGREEMENT_M;
@@ -146,11 +148,10 @@ impl AltitudeFilter {
         self.rejected_by_m = surprise_m;
         self.rejected_m = height_m;
         self.state = Some(expected);
-        let flown_unseen = surprise_m.abs() <= allowed_m + Self::MAX_JUMP_M_S * self.gap_s;
-        if self.rejected > 1 && (flown_unseen || self.doubtful) {
+        let flown_unseen = surprise_m.abs() <= Self::allowed_m(USUAL_STEP_S + self.gap_s);
+        if self.rejected > 1 && flown_unseen {
             self.rejected = 0;
             self.gap_s = 0.0;
-            self.doubtful = false;
             self.state = Some(Vertical { height_m, ..expected });
             return Echo::Good;
         }
@@ -178,7 +179,6 @@ impl AltitudeFilter {
     pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
         self.gap_s = 0.0;
-        self.doubtful = false;
         self.rejected = 0;
         self.unconfirmed = false;
         self.state = Some(Vertical::default());

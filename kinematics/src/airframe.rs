@@ -48,18 +48,20 @@ pub struct Airframe {
 impl Airframe {
     /// Largest gain of the tilt.
     pub const STRONGEST_TILT: f64 = 2.0;
-    /// Smallest gain of the climb.
-    pub const WEAKEST_CLIMB: f64 = 0.85;
+    /// Smallest and largest gain of the climb.
+    pub const CLIMBS: [f64; 2] = [0.85, 1.0];
     /// Largest gain of the descent.
     pub const STRONGEST_DROP: f64 = 1.7;
     /// Shortest and longest time constant of the climb.
     pub const CLIMB_LAGS_S: [f64; 2] = [0.17, 1.25];
     /// Shortest and longest time constant of the turn.
     pub const TURN_LAGS_S: [f64; 2] = [0.02, 0.51];
+    /// Smallest and largest gain of the turn.
+    pub const TURNS: [f64; 2] = [0.7, 1.0];
+    /// Smallest and largest gain of the thrust.
+    pub const THRUSTS: [f64; 2] = [0.5, 1.03];
     /// Smallest and largest linear drag.
-    pub const WEAKEST_DRAG_1_S: f64 = 0.45;
-    /// See [`Airframe::WEAKEST_DRAG_1_S`].
-    pub const STRONGEST_DRAG_1_S: f64 = 1.95;
+    pub const DRAGS_1_S: [f64; 2] = [0.45, 1.95];
 }
 
 impl Default for Airframe {

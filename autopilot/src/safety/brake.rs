@@ -57,7 +57,7 @@ impl Brake {
         } else {
             // The floor is hard: nothing that was identified is trusted to be better than the worst.
             let [_, longest_lag_s] = Airframe::CLIMB_LAGS_S;
-            (Airframe::WEAKEST_CLIMB * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
+            (Airframe::CLIMBS[0] * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
         };
         let stopping = Stopping {
             delay_s: now.tick_s,
@@ -179,7 +179,7 @@ mod tests {
         let [up, down] = gaz_left(3.2 - way_m, 0.7, 0.0);
         assert!((up - 0.5).abs() < 1e-9 && (down + 1.0).abs() < 1e-9, "{up} {down}");
         let [_, lag_s] = Airframe::CLIMB_LAGS_S;
-        let climbs_m_s = Airframe::WEAKEST_CLIMB * 0.7;
+        let climbs_m_s = Airframe::CLIMBS[0] * 0.7;
         let way_m = 0.3 * 0.1 + 0.3 * 0.3 / (2.0 * (climbs_m_s + 0.15) / lag_s);
         let [up, down] = gaz_left(0.275 + way_m, -0.3, 0.0);
         assert!((up - 1.0).abs() < 1e-9 && (down + 0.5).abs() < 1e-9, "{up} {down}");

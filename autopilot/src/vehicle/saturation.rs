@@ -120,7 +120,7 @@ fn without_drag(state: &Prediction, drag_1_s: f64) -> Vector2<f64> {
     let velocity_m_s = state.velocity_m_s.xy();
     let speed_m_s = velocity_m_s.norm();
     let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-    let most_m_s2 = (Airframe::STRONGEST_DRAG_1_S - drag_1_s).max(0.0) * speed_m_s;
+    let most_m_s2 = (Airframe::DRAGS_1_S[1] - drag_1_s).max(0.0) * speed_m_s;
     let against_m_s2 = -state.disturbance_m_s2.dot(&along);
     state.disturbance_m_s2 + along * against_m_s2.clamp(0.0, most_m_s2)
 }
@@ -170,7 +170,7 @@ mod tests {
                 1.0,
                 &state,
                 &target,
-                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                [2.0, Airframe::DRAGS_1_S[1]],
                 0.01,
             );
             saturation.for_ms() > 0
@@ -195,7 +195,7 @@ mod tests {
                 0.5,
                 &right,
                 &TARGET,
-                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                [2.0, Airframe::DRAGS_1_S[1]],
                 0.01,
             );
             saturation.for_ms() > 0
@@ -220,7 +220,7 @@ mod tests {
                 1.0,
                 &moving(-0.5),
                 &TARGET,
-                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                [2.0, Airframe::DRAGS_1_S[1]],
                 0.01,
             );
         }
@@ -262,7 +262,7 @@ mod tests {
                 1.0,
                 &state,
                 &TARGET,
-                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                [2.0, Airframe::DRAGS_1_S[1]],
                 0.01,
             );
         }
@@ -301,7 +301,7 @@ mod tests {
                     1.0,
                     &state,
                     &here,
-                    [2.0, Airframe::STRONGEST_DRAG_1_S],
+                    [2.0, Airframe::DRAGS_1_S[1]],
                     0.01,
                 );
             }
@@ -324,7 +324,7 @@ mod tests {
                 1.0,
                 &disturbed,
                 &here,
-                [9.0, Airframe::STRONGEST_DRAG_1_S],
+                [9.0, Airframe::DRAGS_1_S[1]],
                 0.01,
             );
         }
@@ -338,7 +338,7 @@ mod tests {
                 1.0,
                 &disturbed,
                 &here,
-                [full_tilt_m_s2, Airframe::STRONGEST_DRAG_1_S],
+                [full_tilt_m_s2, Airframe::DRAGS_1_S[1]],
                 2.0,
             );
             assert_eq!(saturation.for_ms() > 0, storm, "{full_tilt_m_s2}");
@@ -358,7 +358,7 @@ mod tests {
                     1.0,
                     &state,
                     &TARGET,
-                    [2.0, Airframe::STRONGEST_DRAG_1_S],
+                    [2.0, Airframe::DRAGS_1_S[1]],
                     0.01,
                 );
             }
