@@ -1,12 +1,13 @@
 //! Height and climb, from heights with noise, wrong echoes and steps of the floor.
 //!
-//! Between the measurements the climb is a model's: it follows the sticks with a lag. The measurements
-//! correct it as in an alpha-beta filter, so the estimate does not lag behind the commands.
+//! Between the measurements the climb is a model's: it follows the sticks with a lag, so the estimate does not lag behind
+//! the commands. A Kalman filter knows how uncertain that is, and with it how much a measurement may surprise.
 
 use crate::orders::Order;
 use crate::sensor::{GATE, ULTRASOUND_M};
 use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
+use nalgebra::{Matrix2, Vector2};
 
 /// Height above the floor at the start, and climb.
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,6 +53,8 @@ pub(crate) enum Echo {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct AltitudeFilter {
     state: Option<Vertical>,
+    /// Covariance of the height, in m and m/s.
+    covariance: Matrix2<f64>,
     /// The first height of a drone that was already flying, not confirmed by a second one: it may be a wrong
     /// echo.
     unconfirmed: bool,
@@ -62,24 +65,23 @@ pub(crate) struct AltitudeFilter {
     rejected_by_m: f64,
     /// The newest rejected height, relative to the floor at the start.
     rejected_m: f64,
-    /// Time without data, beyond the usual interval, since the last accepted height.
-    gap_s: f64,
 }
 
 impl AltitudeFilter {
-    /// Time constant of the correction while the drone follows the sticks.
-    const TIME_CONSTANT_S: f64 = 0.2;
-    /// Time constant while it moves autonomously, which the model cannot predict.
-    const TIME_CONSTANT_BY_ITSELF_S: f64 = 0.12;
-    /// Largest difference between a height and the expected one, which is smooth...
-    const MAX_JUMP_M: f64 = GATE * ULTRASOUND_M;
-    /// ...besides what a climb that changed by this much since the last height makes of it. In a gap a height that is
-    /// plausible only because of it is accepted when the next one agrees: the first may be a wrong echo.
-    const MAX_CHANGE_M_S: f64 = 1.0;
+    /// What the climb does beside the model: standard deviation of its change in a second. While the drone follows the
+    /// sticks...
+    const STEERED_M_S: f64 = 0.1;
+    /// ...while it moves autonomously...
+    const BY_ITSELF_M_S: f64 = 0.3;
+    /// ...and while neither its heights nor, perhaps, its orders arrive.
+    const UNHEARD_M_S: f64 = 0.3;
+    /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
+    const LIKELIER: f64 = 3.0;
     /// Number of agreeing heights that make a step of the floor.
     const AGREEING: u32 = 4;
-    /// Tolerance of the agreement, either of the heights or of their differences to the expected ones: the
-    /// drone may hold its height, or move as expected.
+    /// Difference between heights that the noise of the ultrasound explains. In a gap a larger one is accepted when the
+    /// next height agrees: the first may be a wrong echo. They agree in their heights or in their differences to the
+    /// expected ones: the drone may hold its height, or move as expected.
     const AGREEMENT_M: f64 = GATE * ULTRASOUND_M;
 
     /// The state at the last measurement; at rest on the floor before the first.
@@ -104,39 +106,49 @@ impl AltitudeFilter {
         if self.state.is_none() {
             return self.begin(altitude_m);
         }
-        let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        self.gap_s += (step_s - USUAL_STEP_S).max(0.0);
-        if surprise_m.abs() > Self::allowed_m(step_s.min(USUAL_STEP_S)) {
-            if self.unconfirmed {
-                return self.begin(altitude_m);
-            }
-            return self.reject(surprise_m, expected);
-        }
-        self.gap_s = 0.0;
-        self.rejected = 0;
-        self.unconfirmed = false;
         if step_s <= 0.0 {
             return Echo::Good;
         }
-        let time_constant_s = match order {
-            Order::Sticks(_) => Self::TIME_CONSTANT_S,
-            Order::ByItself => Self::TIME_CONSTANT_BY_ITSELF_S,
+        let disturbance_m_s = match order {
+            Order::Sticks(_) => Self::STEERED_M_S,
+            Order::ByItself => Self::BY_ITSELF_M_S,
         };
-        // Critically damped: beta follows from alpha (Benedict and Bordner, 1962).
-        let alpha = step_s / (step_s + time_constant_s);
-        let beta = alpha * alpha / (2.0 - alpha);
-        self.state = Some(Vertical {
-            height_m: expected.height_m + alpha * surprise_m,
-            climb_m_s: expected.climb_m_s + beta * surprise_m / step_s,
-        });
-        Echo::Good
+        self.disturb(disturbance_m_s, step_s);
+        self.disturb(Self::UNHEARD_M_S, (step_s - USUAL_STEP_S).max(0.0));
+        let moved = Matrix2::new(1.0, step_s, 0.0, 1.0);
+        self.covariance = moved * self.covariance * moved.transpose();
+        let surprise_m = altitude_m + self.floor_m - expected.height_m;
+        if surprise_m.abs() <= Self::AGREEMENT_M {
+            self.accept(surprise_m, expected);
+            return Echo::Good;
+        }
+        if self.unconfirmed {
+            return self.begin(altitude_m);
+        }
+        self.reject(surprise_m, expected)
     }
 
-    /// How far from the expected height that of a drone may be, which climbs differently since a time.
-    fn allowed_m(unseen_s: f64) -> f64 {
-        let [lag_s, _] = Airframe::CLIMB_LAGS_S;
-        let changed_s = unseen_s - lag_s * (1.0 - (-unseen_s / lag_s).exp());
-        Self::MAX_JUMP_M + Self::MAX_CHANGE_M_S * changed_s
+    /// Adds what a disturbance has done to the climb, and by it to the height, in a time.
+    fn disturb(&mut self, change_m_s: f64, time_s: f64) {
+        let Self { covariance, .. } = self;
+        let (once, twice) = (time_s / 2.0, time_s * time_s / 3.0);
+        *covariance += change_m_s * change_m_s * time_s * Matrix2::new(twice, once, once, 1.0);
+    }
+
+    /// Variance of the difference between a height and the expected one.
+    fn surprise_m2(&self) -> f64 {
+        self.covariance[(0, 0)] + ULTRASOUND_M * ULTRASOUND_M
+    }
+
+    fn accept(&mut self, surprise_m: f64, expected: Vertical) {
+        let gain = self.covariance.column(0) / self.surprise_m2();
+        self.covariance -= gain * self.covariance.row(0);
+        self.state = Some(Vertical {
+            height_m: expected.height_m + gain.x * surprise_m,
+            climb_m_s: expected.climb_m_s + gain.y * surprise_m,
+        });
+        self.rejected = 0;
+        self.unconfirmed = false;
     }
 
     /// A height far from the expected one: a wrong echo, unless others agree with it.
@@ -148,18 +160,14 @@ impl AltitudeFilter {
         self.rejected_by_m = surprise_m;
         self.rejected_m = height_m;
         self.state = Some(expected);
-        let flown_unseen = surprise_m.abs() <= Self::allowed_m(USUAL_STEP_S + self.gap_s);
-        if self.rejected > 1 && flown_unseen {
-            self.rejected = 0;
-            self.gap_s = 0.0;
-            self.state = Some(Vertical { height_m, ..expected });
+        if self.rejected > 1 && surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt() {
+            self.accept(surprise_m, expected);
             return Echo::Good;
         }
         if self.rejected < Self::AGREEING {
             return Echo::Wrong;
         }
         self.rejected = 0;
-        self.gap_s = 0.0;
         self.floor_m -= surprise_m;
         Echo::FloorStep
     }
@@ -171,17 +179,17 @@ impl AltitudeFilter {
 
     fn begin(&mut self, altitude_m: f64) -> Echo {
         self.unconfirmed = true;
+        self.covariance = Matrix2::from_diagonal(&Vector2::new(
+            ULTRASOUND_M * ULTRASOUND_M,
+            Self::BY_ITSELF_M_S * Self::BY_ITSELF_M_S,
+        ));
         self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
         Echo::First
     }
 
     /// The drone stands on the floor, whatever the ultrasound measures there.
     pub(crate) fn stand(&mut self) {
-        self.floor_m = 0.0;
-        self.gap_s = 0.0;
-        self.rejected = 0;
-        self.unconfirmed = false;
-        self.state = Some(Vertical::default());
+        *self = Self { state: Some(Vertical::default()), ..Self::default() };
     }
 }
 
