@@ -31,8 +31,8 @@ const fn with_unpublished([least, largest]: [f64; 2]) -> [f64; 2] {
 const CLIMB: Tolerance = Tolerance {
     gains: with_unpublished(Airframe::CLIMBS),
     down: Airframe::STRONGEST_DROP,
-    slack: 0.02,
-    enough: 0.2,
+    slack: 0.01,
+    enough: 0.15,
 };
 const TURN: Tolerance =
     Tolerance { gains: with_unpublished(Airframe::TURNS), down: 1.0, slack: 1.0, enough: 10.0 };
@@ -109,8 +109,8 @@ impl Response {
         Axis::turn(right, forward, turned_deg);
         let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
         let at_s = measured.at_s;
-        right.watch(at_s, step_s, velocity_m_s.x, tilt_rad.x);
-        forward.watch(at_s, step_s, velocity_m_s.y, tilt_rad.y);
+        right.watch(at_s, step_s, velocity_m_s.x, tilt_rad.x, limits.tilt_rad);
+        forward.watch(at_s, step_s, velocity_m_s.y, tilt_rad.y, limits.tilt_rad);
         if self.axes.iter().any(Axis::is_dead) {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {

@@ -78,7 +78,8 @@ mod tests {
                 assert_eq!(with(|s| s.yaw_deg = sign * share * 360.0), expected(Quantity::Heading));
             }
         }
-        for (altitude_m, possible) in [(-1.0, true), (-1.01, false), (120.0, true), (120.1, false)] {
+        for (altitude_m, possible) in [(-1.0, true), (-1.01, false), (120.0, true), (120.1, false)]
+        {
             let found = with(|s| s.altitude_m = altitude_m);
             assert_eq!(found.is_none(), possible, "{altitude_m}");
         }

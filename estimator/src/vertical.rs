@@ -71,10 +71,10 @@ impl AltitudeFilter {
     /// What the climb does beside the model: standard deviation of its change in a second. While the drone follows the
     /// sticks...
     const STEERED_M_S: f64 = 0.1;
-    /// ...while it moves autonomously...
+    /// ...and while it moves autonomously.
     const BY_ITSELF_M_S: f64 = 0.3;
-    /// ...and while neither its heights nor, perhaps, its orders arrive.
-    const UNHEARD_M_S: f64 = 0.3;
+    /// Standard deviation of the climb that an order asks for which the drone, perhaps, has not received.
+    const UNHEARD_M_S: f64 = 0.9;
     /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
     const LIKELIER: f64 = 3.0;
     /// Number of agreeing heights that make a step of the floor.
@@ -113,10 +113,10 @@ impl AltitudeFilter {
             Order::Sticks(_) => Self::STEERED_M_S,
             Order::ByItself => Self::BY_ITSELF_M_S,
         };
-        self.disturb(disturbance_m_s, step_s);
-        self.disturb(Self::UNHEARD_M_S, (step_s - USUAL_STEP_S).max(0.0));
         let moved = Matrix2::new(1.0, step_s, 0.0, 1.0);
         self.covariance = moved * self.covariance * moved.transpose();
+        self.disturb(disturbance_m_s, step_s);
+        self.unheard((step_s - USUAL_STEP_S).max(0.0));
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
         if surprise_m.abs() <= Self::AGREEMENT_M {
             self.accept(surprise_m, expected);
@@ -133,6 +133,14 @@ impl AltitudeFilter {
         let Self { covariance, .. } = self;
         let (once, twice) = (time_s / 2.0, time_s * time_s / 3.0);
         *covariance += change_m_s * change_m_s * time_s * Matrix2::new(twice, once, once, 1.0);
+    }
+
+    /// Adds what an order does to the climb, and by it to the height, that the drone has or has not received for a time.
+    fn unheard(&mut self, time_s: f64) {
+        let lag_s = Airframe::default().climb_lag_s;
+        let followed = 1.0 - (-time_s / lag_s).exp();
+        let changed = Self::UNHEARD_M_S * Vector2::new(time_s - lag_s * followed, followed);
+        self.covariance += changed * changed.transpose();
     }
 
     /// Variance of the difference between a height and the expected one.

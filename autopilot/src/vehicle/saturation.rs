@@ -165,14 +165,7 @@ mod tests {
                 ..Prediction::default()
             };
             let mut saturation = Saturation::default();
-            saturation.watch(
-                &full,
-                1.0,
-                &state,
-                &target,
-                [2.0, Airframe::DRAGS_1_S[1]],
-                0.01,
-            );
+            saturation.watch(&full, 1.0, &state, &target, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_counted([0.4, 0.0, 0.0], [0.15, 0.0, 0.0]));
@@ -190,14 +183,7 @@ mod tests {
         let right = Prediction { position_m: Vector3::new(1.0, 0.0, 1.0), ..Prediction::default() };
         let is_full = |demand: Sticks| {
             let mut saturation = Saturation::default();
-            saturation.watch(
-                &demand,
-                0.5,
-                &right,
-                &TARGET,
-                [2.0, Airframe::DRAGS_1_S[1]],
-                0.01,
-            );
+            saturation.watch(&demand, 0.5, &right, &TARGET, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_full(Sticks { roll: -0.48, ..Sticks::default() }));
@@ -257,14 +243,7 @@ mod tests {
         };
         let mut saturation = Saturation::default();
         for _ in 0..100 {
-            saturation.watch(
-                &demand,
-                1.0,
-                &state,
-                &TARGET,
-                [2.0, Airframe::DRAGS_1_S[1]],
-                0.01,
-            );
+            saturation.watch(&demand, 1.0, &state, &TARGET, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
         }
         saturation.for_ms()
     }

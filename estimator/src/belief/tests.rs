@@ -12,8 +12,11 @@ fn weighed(
     (0..packets)
         .map(|packet| {
             let at_s = PACKET_S * f64::from(packet);
-            let shown = evidence(packet)
-                .map(|(quantity, cause)| Evidence { quantity, cause, since_s: at_s });
+            let shown = evidence(packet).map(|(quantity, cause)| Evidence {
+                quantity,
+                cause,
+                since_s: at_s,
+            });
             beliefs.weigh(at_s, &[shown], true);
             (beliefs.trust(), beliefs.sound_at_s())
         })
@@ -33,9 +36,8 @@ fn distrusted(
 
 #[test]
 fn one_wrong_packet_is_no_reason_to_worry_and_many_are() {
-    let wrong = |shows: &dyn Fn(u32) -> bool| {
-        distrusted(200, Quantity::Velocity, Cause::Value, shows)
-    };
+    let wrong =
+        |shows: &dyn Fn(u32) -> bool| distrusted(200, Quantity::Velocity, Cause::Value, shows);
     assert_eq!(wrong(&|packet| packet == 10), []);
     // 0.4 s of wrong packets, and a moment more.
     let lasting = wrong(&|packet| packet >= 10);
@@ -73,9 +75,8 @@ fn a_long_gap_makes_no_fault_of_one_packet() {
 
 #[test]
 fn a_repetition_is_wrong_while_it_lasts_and_a_second_one_for_longer() {
-    let frozen = |shows: &dyn Fn(u32) -> bool| {
-        distrusted(200, Quantity::Attitude, Cause::Repetition, shows)
-    };
+    let frozen =
+        |shows: &dyn Fn(u32) -> bool| distrusted(200, Quantity::Attitude, Cause::Repetition, shows);
     assert_eq!(frozen(&|packet| (10..20).contains(&packet)), (10..20).collect::<Vec<_>>());
     // The second time within four seconds.
     let twice = frozen(&|packet| (10..20).contains(&packet) || (60..70).contains(&packet));
@@ -85,16 +86,16 @@ fn a_repetition_is_wrong_while_it_lasts_and_a_second_one_for_longer() {
 }
 
 #[test]
-fn two_steps_are_forgiven_and_three_within_seconds_are_not() {
+fn the_ends_of_two_boxes_are_forgiven_and_four_steps_within_a_second_are_not() {
     for quantity in [Quantity::Heading, Quantity::Altitude] {
         let stepping = |every: u32, times: u32| {
             distrusted(200, quantity, Cause::Step, |packet| {
                 packet % every == 0 && packet < times * every
             })
         };
-        assert_eq!(stepping(15, 2), []);
-        assert_eq!(stepping(15, 3).first(), Some(&30));
-        assert_eq!(stepping(25, 3), [], "more than a second apart");
+        assert_eq!(stepping(6, 3), []);
+        assert_eq!(stepping(6, 4).first(), Some(&18));
+        assert_eq!(stepping(15, 4), [], "three quarters of a second apart");
     }
 }
 
@@ -104,8 +105,7 @@ fn what_has_summed_up_elsewhere_is_enough_at_once() {
         (Cause::Noise, Trust::Noisy(Quantity::Heading)),
         (Cause::Response, Trust::Unresponsive(Quantity::Heading)),
     ] {
-        let watched =
-            weighed(140, |packet| (packet == 10).then_some((Quantity::Heading, cause)));
+        let watched = weighed(140, |packet| (packet == 10).then_some((Quantity::Heading, cause)));
         assert_eq!((watched[9].0, watched[10].0), (Trust::Sound, trust));
         assert_eq!([watched[90].0, watched[91].0], [trust, Trust::Sound], "{cause:?}");
     }

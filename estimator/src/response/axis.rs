@@ -19,6 +19,15 @@ const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
 /// ...a working flow shows more than this fraction of it, also while the drone compensates gusts; the noise
 /// of a dead one is less.
 const AXIS_SHARE: f64 = 0.3;
+/// A drone that starts to tilt by this fraction of full tilt, and keeps it for a while, accelerates or
+/// brakes. If it seems to stand this still (standard deviation, and mean), its flow is dead. A drone that has
+/// been tilted for longer may hold its position in the wind.
+pub(super) const LEANS_SHARE: f64 = 0.8;
+pub(super) const LEANS_S: f64 = 2.0;
+const LEVEL_SHARE: f64 = 0.0;
+const LEVEL_S: f64 = 5.0;
+const STILL_DEVIATION_M_S: f64 = 0.02;
+const STILL_M_S: f64 = 0.04;
 const SMOOTHING_S: f64 = 0.2;
 const AXIS_INTERVAL_S: f64 = 0.05;
 const AXIS_MEMORY: usize = 176;
@@ -43,6 +52,7 @@ pub(super) struct Axis {
 #[derive(Debug, Clone, Copy)]
 struct Moment {
     at_s: f64,
+    tilt_rad: f64,
     expected_m_s: [f64; DRAGS_1_S.len()],
     measured_m_s: f64,
 }
@@ -78,6 +88,7 @@ impl Axis {
         turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         turn(&mut right.tilt_rad, &mut forward.tilt_rad);
         for (right, forward) in right.recent.iter_mut().zip(&mut forward.recent) {
+            turn(&mut right.tilt_rad, &mut forward.tilt_rad);
             turn_each(&mut right.expected_m_s, &mut forward.expected_m_s);
             turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         }
@@ -87,7 +98,14 @@ impl Axis {
         self.is_dead
     }
 
-    pub(super) fn watch(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) {
+    pub(super) fn watch(
+        &mut self,
+        at_s: f64,
+        step_s: f64,
+        velocity_m_s: f64,
+        tilt_rad: f64,
+        full_tilt_rad: f64,
+    ) {
         // When it tilted in a gap is not known.
         let mean_rad = f64::midpoint(std::mem::replace(&mut self.tilt_rad, tilt_rad), tilt_rad);
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * mean_rad.tan();
@@ -103,8 +121,9 @@ impl Axis {
                 self.recent.pop_front();
             }
             let Self { expected_m_s, measured_m_s, .. } = *self;
-            self.recent.push_back(Moment { at_s, expected_m_s, measured_m_s });
-            self.is_dead = self.misses_swings(at_s);
+            self.recent.push_back(Moment { at_s, tilt_rad, expected_m_s, measured_m_s });
+            self.is_dead =
+                self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad);
         }
     }
 
@@ -124,6 +143,20 @@ impl Axis {
                 expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
             })
         })
+    }
+
+    /// The drone has started to tilt, and does not move.
+    fn stands_while_leaning(&self, at_s: f64, full_tilt_rad: f64) -> bool {
+        let recent = self.within(at_s, LEANS_S);
+        let Some(first) = recent.clone().next() else { return false };
+        let lasts = at_s - first.at_s >= LEANS_S - 2.0 * AXIS_INTERVAL_S;
+        let lean = |moment: &Moment| moment.tilt_rad * first.tilt_rad.signum() / full_tilt_rad;
+        let leans = recent.clone().all(|moment| lean(moment) >= LEANS_SHARE);
+        let was_level = self.within(at_s, LEVEL_S).any(|moment| lean(moment) <= LEVEL_SHARE);
+        let measured = recent.map(|moment| moment.measured_m_s);
+        let stands =
+            mean(measured.clone()).abs() < STILL_M_S && deviation(measured) < STILL_DEVIATION_M_S;
+        lasts && leans && was_level && stands
     }
 
     pub(super) fn rest(&mut self) {

@@ -134,3 +134,6 @@ impl<const N: usize> Rate<N> {
         self.last = Some(value);
     }
 }
+
+#[cfg(test)]
+mod tests;

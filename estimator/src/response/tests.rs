@@ -14,7 +14,7 @@ fn found(
     measured: impl Fn(f64) -> Measured,
 ) -> Option<(f64, Quantity)> {
     let mut orders = Orders::new(Duration::ZERO);
-    let mut response = Response::new(&DroneLimits::default());
+    let mut response = Response::new();
     let limits = DroneLimits::default();
     (0..1000 * seconds / PERIOD_MS).find_map(|i| {
         let now = Duration::from_millis(PERIOD_MS * i);
@@ -28,7 +28,7 @@ fn found(
 fn finds_a_dead_velocity(measured: impl Fn(f64) -> Measured) -> bool {
     let mut orders = Orders::new(Duration::ZERO);
     orders.push(Duration::ZERO, Order::Sticks(Sticks::default()));
-    let mut response = Response::new(&DroneLimits::default());
+    let mut response = Response::new();
     (0..300).any(|i| {
         let measured = measured((PERIOD_MS * i) as f64 / 1000.0);
         let found = response.watch(&measured, &orders, &DroneLimits::default());
@@ -215,60 +215,9 @@ fn a_heading_that_turns_twice_as_far_is_noticed_before_a_right_angle() {
     }
 }
 
-#[test]
-fn a_jump_is_judged_elsewhere() {
-    let stepping = |at_s: f64| Measured {
-        altitude_m: 1.0 + 0.7 * at_s - if at_s > 1.0 { 0.8 } else { 0.0 },
-        ..still(at_s)
-    };
-    let up = Sticks { gaz: 1.0, ..Sticks::default() };
-    assert_eq!(found(up, 5, stepping), None);
-}
-
-fn assert_near(value: f64, expected: f64) {
-    assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
-}
-
 /// The way of a rate that follows a constant command with a lag.
 fn lagged(rate: f64, lag_s: f64, at_s: f64) -> f64 {
     rate * (at_s - lag_s * (1.0 - (-at_s / lag_s).exp()))
-}
-
-#[test]
-fn what_the_sticks_ask_for_follows_with_the_lag_of_an_ordinary_airframe() {
-    let mut orders = Orders::new(Duration::ZERO);
-    let sticks = Sticks { gaz: -1.0, yaw: 0.5, ..Sticks::default() };
-    orders.push(Duration::ZERO, Order::Sticks(sticks));
-    orders.push(Duration::from_secs(2), Order::ByItself);
-    let (limits, airframe) = (DroneLimits::default(), Airframe::default());
-    let mut response = Response::new(&DroneLimits::default());
-    let mut watch = |twentieths: std::ops::RangeInclusive<u32>| {
-        for at in twentieths {
-            response.watch(&still(f64::from(at) / 20.0), &orders, &limits);
-        }
-        (response.asked_rise_m(), response.asked_turn_deg())
-    };
-    let (rise_m, turn_deg) = watch(0..=39);
-    // In the first step it is seen that the drone stands.
-    let asked = |rate, lag_s| lagged(rate, lag_s, 0.05) + lagged(rate, lag_s, 1.9);
-    assert!((rise_m - asked(-0.7, airframe.climb_lag_s)).abs() < 1e-3, "{rise_m}");
-    assert!((turn_deg - asked(50.0, airframe.turn_lag_s)).abs() < 0.05, "{turn_deg}");
-    assert_eq!(watch(40..=60), (rise_m, turn_deg), "by itself it is asked for nothing");
-}
-
-#[test]
-fn longer_gaps_are_not_judged() {
-    let asked_m = |gap_s: f64| {
-        let mut orders = Orders::new(Duration::ZERO);
-        orders.push(Duration::ZERO, Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() }));
-        let mut response = Response::new(&DroneLimits::default());
-        for at_s in [0.0, gap_s] {
-            response.watch(&still(at_s), &orders, &DroneLimits::default());
-        }
-        response.asked_rise_m()
-    };
-    assert!(asked_m(MAX_GAP_S) > 0.05);
-    assert_near(asked_m(MAX_GAP_S + 0.01), 0.0);
 }
 
 #[test]
@@ -276,8 +225,7 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
     let up = Order::Sticks(Sticks { gaz: 1.0, roll: 0.5, ..Sticks::default() });
     // Until `sticks_s` the drone follows the sticks, then for a second it does not. The watch begins at `from_s`.
     let found_after = |from_s: f64, sticks_s: f64, measured: &dyn Fn(f64) -> Measured| {
-        let (mut orders, mut response) =
-            (Orders::new(Duration::ZERO), Response::new(&DroneLimits::default()));
+        let (mut orders, mut response) = (Orders::new(Duration::ZERO), Response::new());
         (0..400_u64).find_map(|i| {
             let at_s = 0.06 * i as f64;
             let by_itself = at_s > sticks_s && at_s <= sticks_s + 1.0;
@@ -302,4 +250,19 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
         // As by one that has seen nothing of the time before.
         assert_eq!(Some(interrupted_s), found_after(sticks_s, sticks_s, measured), "{at_once_s}");
     }
+}
+
+#[test]
+fn longer_gaps_are_not_judged() {
+    let found = |gap_s: f64| {
+        let mut orders = Orders::new(Duration::ZERO);
+        orders.push(Duration::ZERO, Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() }));
+        let mut response = Response::new();
+        (0..20).find_map(|i| {
+            let measured = still(gap_s * f64::from(i));
+            response.watch(&measured, &orders, &DroneLimits::default())
+        })
+    };
+    assert_eq!(found(MAX_GAP_S - 0.01), Some(Quantity::Altitude));
+    assert_eq!(found(MAX_GAP_S + 0.01), None);
 }

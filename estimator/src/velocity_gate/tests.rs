@@ -138,4 +138,3 @@ fn the_first_velocity_of_a_flight_is_compared_with_rest() {
     assert!(gate.admits(still, &model(still, still), 0.03));
     assert!(gate.admits(Vector2::new(0.0, 0.65), &model(still, still), 0.5));
 }
-
