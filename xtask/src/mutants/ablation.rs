@@ -12,7 +12,8 @@ use crate::compare::{self, Change, Line};
 use crate::edit::{Mutant, edit};
 
 const ESTIMATOR: &str = "estimator/src/lib.rs";
-const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
+const BELIEF: &str = "estimator/src/belief.rs";
+const REPETITION: &str = "estimator/src/repetition.rs";
 const RESPONSE: &str = "estimator/src/response.rs";
 const HEADING: &str = "estimator/src/heading.rs";
 const VERTICAL: &str = "estimator/src/vertical.rs";
@@ -33,21 +34,21 @@ const fn without(
 const EVIDENCE: &[Evidence] = &[
     without(
         "a value that repeats itself",
-        PLAUSIBILITY,
-        "if repetition.count >= FROZEN_PACKETS && lasts",
-        "if repetition.count >= FROZEN_PACKETS.max(u32::MAX) && lasts",
+        REPETITION,
+        "if lasts {",
+        "if lasts && at_s < f64::MIN {",
     ),
     without(
         "a value that stops again and again",
-        PLAUSIBILITY,
-        "if self.stops > FORGIVEN_STOPS {",
-        "if self.stops > FORGIVEN_STOPS.max(f64::MAX) {",
+        BELIEF,
+        "ENOUGH_S * f64::from(u8::from(begins))",
+        "0.0 * ENOUGH_S * f64::from(u8::from(begins))",
     ),
     without(
         "an impossible value",
         ESTIMATOR,
-        "Verdict { rejected: Some(quantity), lateness_s,",
-        "Verdict { rejected: Some(quantity).filter(|_| lateness_s < f64::MIN), lateness_s,",
+        "&[Some(against(Cause::Value)(quantity))]",
+        "&[Some(against(Cause::Value)(quantity)).filter(|_| lateness_s < f64::MIN)]",
     ),
     without(
         "a velocity that jumps",
@@ -58,8 +59,8 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "orders that were not heard explain a velocity",
         ESTIMATOR,
-        "unheard_m_s: &unheard,",
-        "unheard_m_s: &unheard[..0],",
+        "unheard_m_s: &unheard }",
+        "unheard_m_s: &unheard[..0] }",
     ),
     without(
         "a heading that steps",
@@ -70,20 +71,20 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "an unlikely echo",
         VERTICAL,
-        "if surprise_m.abs() > allowed_m {",
-        "if surprise_m.abs() > allowed_m.max(f64::MAX) {",
+        "if surprise_m.abs() <= Self::AGREEMENT_M {",
+        "if surprise_m.abs() <= Self::AGREEMENT_M.max(f64::MAX) {",
     ),
     without(
         "steps of heading and floor that come too often",
-        PLAUSIBILITY,
-        "self.steps += f64::from(u8::from(verdict.step.is_some()));",
-        "self.steps += 0.0 * f64::from(u8::from(verdict.step.is_some()));",
+        BELIEF,
+        "Self::Step => STEP_S,",
+        "Self::Step => 0.0 * STEP_S,",
     ),
     without(
         "noise",
-        PLAUSIBILITY,
-        "self.noisy = verdict.noisy.map(",
-        "self.noisy = verdict.noisy.filter(|_| arrival_s < f64::MIN).map(",
+        ESTIMATOR,
+        "self.watch_noise(made_s, sample).map(",
+        "self.watch_noise(made_s, sample).filter(|_| made_s < f64::MIN).map(",
     ),
     without(
         "a dead velocity",
@@ -111,15 +112,15 @@ const EVIDENCE: &[Evidence] = &[
     ),
     without(
         "lateness",
-        PLAUSIBILITY,
-        "if verdict.lateness_s <= MAX_LATENESS_S {",
-        "if verdict.lateness_s <= MAX_LATENESS_S.max(f64::MAX) {",
+        ESTIMATOR,
+        "let is_news = lateness_s <= MAX_LATENESS_S;",
+        "let is_news = lateness_s <= MAX_LATENESS_S.max(f64::MAX);",
     ),
     without(
         "what the drone reports of its sensors",
-        PLAUSIBILITY,
-        "sample.reported_lost.filter(|_| sample.airborne);",
-        "sample.reported_lost.filter(|_| sample.airborne && arrival_s < f64::MIN);",
+        ESTIMATOR,
+        "sample.reported_lost.filter(|_| sample.airborne)",
+        "sample.reported_lost.filter(|_| sample.airborne && arrival_s < f64::MIN)",
     ),
 ];
 

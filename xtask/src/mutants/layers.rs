@@ -4,11 +4,12 @@
 use super::list::{AGENT, ESTIMATOR, Expected, Mutant, SAFETY, mutant};
 use crate::edit::{edit, layered};
 
-const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
+const BELIEF: &str = "estimator/src/belief.rs";
+const VELOCITY_GATE: &str = "estimator/src/velocity_gate.rs";
 const HEADING: &str = "estimator/src/heading.rs";
 const RESPONSE: &str = "estimator/src/response.rs";
 const UNCERTAINTY: &str = "estimator/src/uncertainty.rs";
-const TAG_FILTER: &str = "estimator/src/tags/filter.rs";
+const TAG_FILTER: &str = "estimator/src/world/filter.rs";
 const SATURATION: &str = "autopilot/src/vehicle/saturation.rs";
 const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
 const SILENCE: &str = "ardrone-link/src/session/silence.rs";
@@ -34,9 +35,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "a disproved quantity is believed at once",
-        PLAUSIBILITY,
-        "(arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))",
-        "(arrival_s - last_s < 0.001).then_some((quantity, since_s))",
+        BELIEF,
+        "self.disproved = Some((cause, since_s, at_s + HOLDS_S));",
+        "self.disproved = Some((cause, since_s, at_s + 0.0 * HOLDS_S));",
     ),
     mutant(
         "the first velocity of a flight is any",
@@ -46,9 +47,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "a gap lets any velocity in",
-        PLAUSIBILITY,
-        "let wind_m_s = NEW_WIND_M_S2 * gap_s",
-        "let wind_m_s = (NEW_WIND_M_S2 + JUMP_M_S2) * gap_s",
+        VELOCITY_GATE,
+        "let allowed_m_s = GATE * ",
+        "let allowed_m_s = 10.0 * gap_s + GATE * ",
     ),
     mutant(
         "a compass that hangs in a turn is believed",

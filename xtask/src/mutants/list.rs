@@ -32,8 +32,8 @@ const MANUAL_ORDERS: &str = "autopilot/src/vehicle/manual_orders.rs";
 const SETPOINT: &str = "autopilot/src/vehicle/setpoint.rs";
 pub(super) const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
-const TAGS: &str = "estimator/src/tags/mod.rs";
-const TAG_MAP: &str = "estimator/src/tags/map.rs";
+const TAGS: &str = "estimator/src/world/mod.rs";
+const TAG_MAP: &str = "estimator/src/world/map.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 
 pub(super) const fn mutant(
@@ -94,10 +94,10 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the place is always certain",
         ESTIMATOR,
-        "self.uncertainty.horizontal_m(",
-        "0.0 * self.uncertainty.horizontal_m(",
+        "known_m.hypot(uncertainty::silence_m(",
+        "0.0 * known_m.hypot(uncertainty::silence_m(",
     ),
-    mutant("navdata are always believed", ESTIMATOR, "self.plausibility.trust()", "Trust::Sound"),
+    mutant("navdata are always believed", ESTIMATOR, "self.beliefs.trust()", "Trust::Sound"),
     // Safety monitor.
     mutant(
         "no fence",
