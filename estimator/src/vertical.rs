@@ -60,10 +60,11 @@ pub(crate) struct AltitudeFilter {
     unconfirmed: bool,
     /// Height of the floor below above the floor at the start.
     floor_m: f64,
-    /// Number of consecutive rejected heights, and the newest relative to the expected one.
+    /// Number of consecutive rejected heights that agree with the first of them, and that one relative to the expected one:
+    /// what moves away from it is no step.
     rejected: u32,
     rejected_by_m: f64,
-    /// The newest rejected height, relative to the floor at the start.
+    /// The first of them, relative to the floor at the start.
     rejected_m: f64,
 }
 
@@ -164,9 +165,11 @@ impl AltitudeFilter {
         let height_m = expected.height_m + surprise_m;
         let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M
             || (height_m - self.rejected_m).abs() <= Self::AGREEMENT_M;
-        self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
-        self.rejected_by_m = surprise_m;
-        self.rejected_m = height_m;
+        if self.rejected == 0 || !agrees {
+            self.rejected = 0;
+            (self.rejected_by_m, self.rejected_m) = (surprise_m, height_m);
+        }
+        self.rejected += 1;
         self.state = Some(expected);
         if self.rejected > 1 && surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt() {
             self.accept(surprise_m, expected);

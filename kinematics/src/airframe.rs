@@ -58,8 +58,6 @@ impl Airframe {
     pub const TURN_LAGS_S: [f64; 2] = [0.02, 0.51];
     /// Smallest and largest gain of the turn.
     pub const TURNS: [f64; 2] = [0.7, 1.0];
-    /// Smallest and largest gain of the thrust.
-    pub const THRUSTS: [f64; 2] = [0.5, 1.03];
     /// Smallest and largest linear drag.
     pub const DRAGS_1_S: [f64; 2] = [0.45, 1.95];
 }

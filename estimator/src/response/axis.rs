@@ -5,13 +5,12 @@ use std::collections::VecDeque;
 use kinematics::{Airframe, GRAVITY_M_S2, body_from_world};
 use nalgebra::Vector2;
 
-use super::with_unpublished;
-
-/// The most sluggish airframe accelerates with this much of gravity's component at a tilt.
-const LEAST_THRUST: f64 = with_unpublished(Airframe::THRUSTS)[0];
-/// Hypotheses of the drag. With much of it a drone soon forgets how fast it was before it braked, with
+/// The most sluggish airframe: the published ones accelerate with 0.5 to 1.03 of gravity's component at a tilt. An even
+/// weaker one is landed: a dead flow leads further astray than a dead altimeter or compass.
+const LEAST_THRUST: f64 = 0.4;
+/// Hypotheses of the drag: the published ones. With much of it a drone soon forgets how fast it was before it braked, with
 /// little it comes to rest by braking.
-const DRAGS_1_S: [f64; 2] = with_unpublished(Airframe::DRAGS_1_S);
+const DRAGS_1_S: [f64; 2] = Airframe::DRAGS_1_S;
 /// If the velocity of the weakest airframe would have varied this much (standard deviation) in this many
 /// seconds, either quickly or slowly, with any drag...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
