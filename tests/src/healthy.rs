@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::outcome::Outcome;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{OperatorOrder, VehicleConfig};
 use kinematics::Sticks;
 use mock_drone::sensors::SensorModel;
@@ -18,7 +18,7 @@ use crate::sensors::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
 use crate::trial::FENCE;
 
-const LIMITS: FlightLimits = FlightLimits { radius_m: 12.0, ceiling_m: 6.0, ..FENCE };
+const LIMITS: FlightLimits = FlightLimits { border: Border::circle(12.0), ceiling_m: 6.0, ..FENCE };
 /// The strongest wind of these days; the weakest airframe resists 2 m/s.
 const MOST_WIND_M_S: f64 = 0.5;
 /// Shortest and longest time that a datagram is under way, in milliseconds.

@@ -154,7 +154,7 @@ pub(super) struct Judge {
 impl Judge {
     pub(super) fn new(flight: &Flight) -> Self {
         let drone = &flight.simulation.world.drone;
-        let limits = flight.simulation.pilot.limits;
+        let limits = &flight.simulation.pilot.limits;
         Self {
             injected: flight.injected.clone(),
             wind_m_s: drone.wind_m_s.norm(),

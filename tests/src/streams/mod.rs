@@ -295,7 +295,7 @@ impl Stream {
 
 /// As the campaign's judge measures it.
 fn outside_m(truth: &Truth) -> f64 {
-    let across_m = truth.position_m.xy().norm() - FENCE.radius_m;
+    let across_m = FENCE.border.outside_m(truth.position_m.xy());
     let above_m = truth.position_m.z - FENCE.ceiling_m;
     across_m.max(above_m) - truth.drift_m().norm()
 }

@@ -1,6 +1,6 @@
 use std::collections::VecDeque;
 
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::{Border, FlightLimits};
 use proptest::prelude::*;
 
 use super::*;
@@ -15,7 +15,7 @@ const RULES: Rules = Rules {
         altitude_m: 488.0,
         heading_deg: 0.0,
     },
-    fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },
+    fence: FlightLimits::new(Border::circle(10.0), 0.3, 3.0),
     max_speed_m_s: 2.2,
 };
 const QGC: Partner = Partner { system: 255, component: 190 };

@@ -1,0 +1,197 @@
+//! `[fence]`: where the drone may fly. It is a circle or a polygon, so that one value stands in place of another, which a
+//! [`section!`](super::section) cannot say.
+
+use autopilot::plan::{Border, BorderError, FlightLimits, Shape};
+use autopilot::vehicle::VehicleConfig;
+use serde::{Deserialize, Serialize};
+
+use super::section::{Comments, Section, outside};
+
+/// Where the drone may fly.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written")]
+#[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
+pub(super) struct Fence {
+    pub(super) floor_m: f64,
+    pub(super) ceiling_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radius_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    polygon_m: Option<Corners>,
+}
+
+/// The section as it is written: the border may be missing, or be there twice.
+#[derive(Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
+struct Written {
+    floor_m: f64,
+    ceiling_m: f64,
+    radius_m: Option<f64>,
+    polygon_m: Option<Corners>,
+}
+
+/// The corners of a polygon that is a border.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
+struct Corners(Border);
+
+impl Fence {
+    /// Name, and each value's comments.
+    pub(super) const COMMENTS: Comments = (
+        "fence",
+        &[
+            ("floor_m", &[" Lowest and highest target. Metres above the floor."]),
+            (
+                "radius_m",
+                &[
+                    " Largest horizontal distance of a target from the start. Metres. In its place `polygon_m = [[-2, -1], [2, -1], [0, 4]]`",
+                    " gives 3 to 64 corners of a polygon around the start: right and forward of it, in their order along the border.",
+                ],
+            ),
+        ],
+    );
+
+    fn of(limits: &FlightLimits) -> Self {
+        let FlightLimits { floor_m, ceiling_m, border, .. } = *limits;
+        let (radius_m, polygon_m) = match border.shape() {
+            Shape::Circle { radius_m } => (Some(radius_m), None),
+            Shape::Polygon(_) => (None, Some(Corners(border))),
+        };
+        Self { floor_m, ceiling_m, radius_m, polygon_m }
+    }
+}
+
+impl Default for Fence {
+    fn default() -> Self {
+        Self::of(&VehicleConfig::default().limits)
+    }
+}
+
+impl Default for Written {
+    fn default() -> Self {
+        let Fence { floor_m, ceiling_m, .. } = Fence::default();
+        Self { floor_m, ceiling_m, radius_m: None, polygon_m: None }
+    }
+}
+
+impl TryFrom<Written> for Fence {
+    type Error = &'static str;
+
+    fn try_from(written: Written) -> Result<Self, Self::Error> {
+        let Written { floor_m, ceiling_m, radius_m, polygon_m } = written;
+        if radius_m.is_some() && polygon_m.is_some() {
+            return Err("a fence has `radius_m` or `polygon_m`: leave one of them out");
+        }
+        let default = Self::default();
+        let radius_m = if polygon_m.is_some() { None } else { radius_m.or(default.radius_m) };
+        Ok(Self { floor_m, ceiling_m, radius_m, polygon_m })
+    }
+}
+
+impl TryFrom<Vec<[f64; 2]>> for Corners {
+    type Error = BorderError;
+
+    fn try_from(corners_m: Vec<[f64; 2]>) -> Result<Self, BorderError> {
+        Border::polygon(&corners_m).map(Self)
+    }
+}
+
+impl From<Corners> for Vec<[f64; 2]> {
+    fn from(corners: Corners) -> Self {
+        match corners.0.shape() {
+            Shape::Circle { .. } => Self::new(),
+            Shape::Polygon(corners_m) => corners_m.to_vec(),
+        }
+    }
+}
+
+impl Section<VehicleConfig> for Fence {
+    fn apply(&self, config: &mut VehicleConfig) {
+        let round = self.radius_m.map(Border::circle);
+        let border = self.polygon_m.as_ref().map(|corners| corners.0).or(round);
+        let limits = &mut config.limits;
+        (limits.floor_m, limits.ceiling_m) = (self.floor_m, self.ceiling_m);
+        limits.border = border.unwrap_or(limits.border);
+    }
+
+    fn out_of_range(&self) -> Vec<String> {
+        let numbers = [
+            ("fence.floor_m", Some(self.floor_m), 0.1..=3.0),
+            ("fence.ceiling_m", Some(self.ceiling_m), 0.5..=100.0),
+            ("fence.radius_m", self.radius_m, 0.5..=200.0),
+        ];
+        let wrong = |(name, value, range)| outside(name, value?, &range);
+        numbers.into_iter().filter_map(wrong).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use autopilot::plan::ZOrigin;
+
+    use crate::settings::Settings;
+
+    const L: &str = "[[-2, -2], [1, -2], [1, 1], [4, 1], [4, 4], [-2, 4]]";
+
+    #[test]
+    fn a_polygon_stands_in_place_of_a_radius_and_is_read_back() {
+        let text = format!("[fence]\npolygon_m = {L}\nceiling_m = 2.5");
+        let settings = Settings::parse("p", &text).unwrap();
+        let limits = settings.pilot_config(ZOrigin::Floor).limits;
+        assert_eq!(limits.border.outline_m().count(), 6);
+        assert!((limits.ceiling_m - 2.5).abs() < 1e-9 && (limits.floor_m - 0.3).abs() < 1e-9);
+        let written = settings.to_toml().unwrap();
+        assert!(written.contains("polygon_m") && !written.contains("radius_m"), "{written}");
+        assert_eq!(Settings::parse("p", &written).unwrap(), settings);
+    }
+
+    #[test]
+    fn what_is_no_border_is_refused_with_its_place_and_what_to_do() {
+        for (fence, place, said) in [
+            (
+                "radius_m = 4.0\npolygon_m = [[-2, -2], [2, -2], [0, 2]]",
+                "line 1, column 1",
+                "leave one of them out",
+            ),
+            ("polygon_m = [[-2, -2], [2, -2]]", "line 2, column 13", "give at least three"),
+            (
+                "polygon_m = [[-2, -2], [2, -2], [nan, 2]]",
+                "line 2, column 13",
+                "corner 3 is no place",
+            ),
+            (
+                "polygon_m = [[-2, -2], [2, -2], [0, 201]]",
+                "line 2, column 13",
+                "corner 3 is no place",
+            ),
+            (
+                "polygon_m = [[-2, -2], [2, 2], [2, -2], [-2, 2]]",
+                "line 2, column 13",
+                "in their order",
+            ),
+            (
+                "polygon_m = [[-1, -0.1], [1, -0.1], [1, 0.1], [-1, 0.1]]",
+                "line 2, column 13",
+                "make it wider",
+            ),
+            (
+                "polygon_m = [[1, -2], [3, -2], [3, 2]]",
+                "line 2, column 13",
+                "the start (0, 0) is outside",
+            ),
+            ("polygon_m = [[1, -2, 0], [3, -2], [3, 2]]", "line 2, column", ""),
+            ("polygon_m = \"round\"", "line 2, column 13", ""),
+            ("polygon = 1", "line 2, column 1", "polygon_m"),
+        ] {
+            let text = format!("[fence]\n{fence}");
+            let error = Settings::parse("my.toml", &text).unwrap_err().to_string();
+            assert!(error.contains(place) && error.contains(said), "{fence}: {error}");
+        }
+        let many = vec!["[0, 1]"; 65].join(", ");
+        let error = Settings::parse("p", &format!("[fence]\npolygon_m = [{many}]")).unwrap_err();
+        assert!(error.to_string().contains("at most 64"), "{error}");
+        let error = Settings::parse("p", "[fence]\nradius_m = 0.4").unwrap_err();
+        assert!(error.to_string().contains("fence.radius_m is 0.4"), "{error}");
+    }
+}
