@@ -358,8 +358,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         mutant(
             "station: set-points lead out of the fence",
             SETPOINT,
-            "velocity_m_s - wall.outward * too_fast_m_s(velocity_m_s, &wall)",
-            "velocity_m_s - wall.outward * (0.0 * too_fast_m_s(velocity_m_s, &wall))",
+            "(velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
+            "(0.0 * velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
         ),
         &[
             edit(
