@@ -23,8 +23,7 @@ use rand_chacha::ChaCha8Rng;
 
 pub use random::{RandomFlight, random, random_of};
 
-pub use crate::airframes::{AIRFRAMES, Model};
-
+use crate::airframes::Model;
 use crate::sim::{Moment, Simulation, SimulationError};
 use crate::trial::{FENCE, FOR_EVER};
 use crate::{alone, place_in_navdata_frame};
