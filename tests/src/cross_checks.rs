@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use crate::sensors::AIRFRAMES;
+use crate::airframes::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
 use crate::trial::{self, FOR_EVER};
 

@@ -1,6 +1,7 @@
 //! Common code of the whole-system tests: plans, simulations, and judges of flights.
 #![forbid(unsafe_code)]
 
+pub mod airframes;
 mod alone;
 pub mod campaign;
 pub mod cross_checks;

@@ -5,15 +5,20 @@ use std::fmt::Write as _;
 
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::LandingReason;
-use system_tests::campaign::{Fault, Verdict, fly};
+use system_tests::airframes::Airframes;
+use system_tests::campaign::{Fault, Verdict, fly_of};
 use system_tests::sim::SimulationError;
 
 use crate::parallel;
 
 /// Flies seeds from `first` and returns the report; the second value is whether no fault was found.
-pub(crate) fn run(flights: u64, first: u64) -> Result<(String, bool), SimulationError> {
+pub(crate) fn run(
+    airframes: Airframes,
+    flights: u64,
+    first: u64,
+) -> Result<(String, bool), SimulationError> {
     let seeds: Vec<u64> = (first..first.saturating_add(flights)).collect();
-    let verdicts = parallel::map(&seeds, fly)?;
+    let verdicts = parallel::map(&seeds, |seed| fly_of(airframes, seed))?;
     let good = verdicts.iter().all(|verdict| verdict.faults.is_empty());
     let text = match verdicts.as_slice() {
         [verdict] => describe(verdict),

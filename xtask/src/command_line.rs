@@ -5,11 +5,12 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
+use system_tests::airframes::Airframes;
 
 use crate::{
-    campaign, cross_checks, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target,
-    verify,
+    campaign, compare, cross_checks, fly, healthy, mavlink, mutants, rules, sensors, soak, streams,
+    tags, target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -18,6 +19,25 @@ use crate::{
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+}
+
+/// Which airframes fly, by the words of the command line.
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum AirframesArgument {
+    /// The four published ones
+    #[default]
+    Published,
+    /// Others: each parameter drawn by the seed within 40 % of that of a published one
+    Any,
+}
+
+impl From<AirframesArgument> for Airframes {
+    fn from(airframes: AirframesArgument) -> Self {
+        match airframes {
+            AirframesArgument::Published => Self::Published,
+            AirframesArgument::Any => Self::Any,
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -42,8 +62,12 @@ enum Command {
         /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: AirframesArgument,
     },
-    /// Fly healthy drones on links that lose and delay datagrams, and list those that were landed without need
+    /// Fly healthy drones on links that lose and delay datagrams, above boxes and in gusts, and tell which were landed
+    /// without need; fails if more than one in a thousand was
     Healthy {
         /// How many flights
         #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..))]
@@ -51,6 +75,9 @@ enum Command {
         /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: AirframesArgument,
     },
     /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
     /// far
@@ -67,6 +94,20 @@ enum Command {
         /// Of the listed failures only those with this in their name
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
+        /// Which airframes fly
+        #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+        airframe: AirframesArgument,
+        /// Write one line for each flight to this file
+        #[arg(long, value_name = "FILE")]
+        csv: Option<PathBuf>,
+    },
+    /// Compare the same flights of two builds, as `sensors --csv` writes them; fails if a judged row has more that led too
+    /// far
+    Compare {
+        /// File of the build before
+        before: PathBuf,
+        /// File of the build after
+        after: PathBuf,
     },
     /// Give random streams of orders, 1 to 400 each second, and report how far they led the drone; fails if one led
     /// outside the fence, or further than a single order does
@@ -117,6 +158,24 @@ enum Command {
         #[arg(long, value_name = "K/N", requires = "all")]
         shard: Option<String>,
     },
+    /// Fly where a single rule keeps the drone safe, and list what did not end as it must
+    Rules,
+    /// Fly the pilot without one piece of evidence against its sensors after the other, with failing sensors, with healthy
+    /// ones and for the rules; fails if one is not missed
+    Ablation {
+        /// Seeds of each failure in each situation on each airframe
+        #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=1_000))]
+        seeds: u64,
+        /// How many random failures besides
+        #[arg(long, value_name = "N", default_value_t = 1000)]
+        random: u64,
+        /// How many healthy flights
+        #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+        healthy: u64,
+        /// Only pieces with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+    },
     /// Fly over UDP, as processes, with random faults, signals, floods and closed output; fails if a
     /// drone was left in the air
     Soak(soak::Arguments),
@@ -161,16 +220,33 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
             let times = flown_s / start.elapsed().as_secs_f64();
             (format!("{table}{flown_s:.0} s flown, {times:.0} times as fast as real\n"), true)
         }
-        Command::Campaign { flights, first } => campaign::run(flights, first)?,
-        Command::Healthy { flights, first } => healthy::run(flights, first)?,
-        Command::Sensors { seeds, random, first, only } => {
-            sensors::run(seeds, only.as_deref(), first..first.saturating_add(random))?
+        Command::Campaign { flights, first, airframe } => {
+            campaign::run(airframe.into(), flights, first)?
         }
+        Command::Healthy { flights, first, airframe } => {
+            healthy::run(airframe.into(), flights, first)?
+        }
+        Command::Sensors { seeds, random, first, only, airframe, csv } => {
+            let randoms = first..first.saturating_add(random);
+            let request = sensors::Request { airframes: airframe.into(), seeds, only, randoms };
+            let report = sensors::run(&request)?;
+            if let Some(path) = csv {
+                compare::write(&path, &report.lines)?;
+            }
+            let good = report.is_good();
+            (report.text, good)
+        }
+        Command::Compare { before, after } => compare::run(&before, &after)?,
         Command::Streams { streams, first } => streams::run(streams, first)?,
         Command::CrossChecks { flights, first } => cross_checks::run(flights, first)?,
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
         Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,
         Command::Mutants { flights, only, .. } => mutants::by_hand(flights, only.as_deref())?,
+        Command::Rules => rules::run()?,
+        Command::Ablation { seeds, random, healthy, only } => {
+            let flights = mutants::ablation::Flights { seeds, random, healthy };
+            mutants::ablation::run(flights, only.as_deref())?
+        }
         Command::Soak(arguments) => soak::run(&arguments)?,
         Command::Verify { only_proofs } => verify::run(only_proofs)?,
         Command::Target => target::run()?,

@@ -4,6 +4,7 @@
 mod campaign;
 mod cases;
 mod command_line;
+mod compare;
 mod cross_checks;
 mod edit;
 mod fly;
@@ -13,6 +14,7 @@ mod mavlink;
 mod mutants;
 mod parallel;
 mod plot;
+mod rules;
 mod score;
 mod sensors;
 mod soak;

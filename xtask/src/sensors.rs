@@ -3,11 +3,13 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
+use system_tests::airframes::{AIRFRAMES, Airframes};
 use system_tests::sensors::{
-    AIRFRAMES, Excursion, Failure, RandomFlight, Situation, failures, fly, random,
+    Excursion, Failure, Flown, RandomFlight, Situation, failures, fly, random_of,
 };
 use system_tests::sim::SimulationError;
 
+use crate::compare::Line;
 use crate::parallel;
 
 /// The worst flight, and which it was.
@@ -70,25 +72,52 @@ impl Row {
     }
 }
 
-/// Flies every failure in every situation on every airframe with `seeds` seeds, then random ones; the second value is
-/// whether no drone was led too far.
-pub(crate) fn run(
-    seeds: u64,
-    only: Option<&str>,
-    randoms: Range<u64>,
-) -> Result<(String, bool), SimulationError> {
-    let (listed, listed_good) = run_listed(seeds, only)?;
-    let (randomly, randomly_good) = run_random(randoms)?;
-    Ok((listed + &randomly, listed_good && randomly_good))
+/// What is flown.
+#[derive(Debug, Clone)]
+pub(crate) struct Request {
+    pub(crate) airframes: Airframes,
+    /// Seeds of each failure in each situation on each airframe, from 1.
+    pub(crate) seeds: u64,
+    /// Of the listed failures only those with this in their name.
+    pub(crate) only: Option<String>,
+    /// Numbers of random failures.
+    pub(crate) randoms: Range<u64>,
+}
+
+/// What came of it.
+#[derive(Debug, Default)]
+pub(crate) struct Report {
+    pub(crate) text: String,
+    /// Each flight.
+    pub(crate) lines: Vec<Line>,
+}
+
+impl Report {
+    /// Whether no drone was led too far by what navdata can show.
+    pub(crate) fn is_good(&self) -> bool {
+        !self.lines.iter().any(|line| line.judged && line.too_far)
+    }
+}
+
+/// Flies every failure in every situation on every airframe with some seeds, then random ones.
+pub(crate) fn run(request: &Request) -> Result<Report, SimulationError> {
+    let mut report = Report::default();
+    if request.seeds > 0 {
+        fly_listed(request, &mut report)?;
+    }
+    fly_random(request, &mut report)?;
+    Ok(report)
 }
 
 /// Flies random failures and lists those that led too far; those that navdata cannot show are only counted.
-fn run_random(numbers: Range<u64>) -> Result<(String, bool), SimulationError> {
-    let numbers: Vec<u64> = numbers.collect();
-    let flown = parallel::map(&numbers, random)?;
+fn fly_random(request: &Request, report: &mut Report) -> Result<(), SimulationError> {
+    let numbers: Vec<u64> = request.randoms.clone().collect();
+    let flown = parallel::map(&numbers, |number| random_of(request.airframes, number))?;
+    let never = flown.iter().filter(|flight| flight.is_none()).count();
+    let flown: Vec<RandomFlight> = flown.into_iter().flatten().collect();
     let too_far: Vec<&RandomFlight> = flown.iter().filter(|flight| flight.is_too_far()).collect();
     let (judged, excused): (Vec<_>, Vec<_>) = too_far.into_iter().partition(|flight| flight.shows);
-    let mut text = String::new();
+    let text = &mut report.text;
     for flight in &judged {
         _ = writeln!(text, "{flight}");
     }
@@ -101,36 +130,83 @@ fn run_random(numbers: Range<u64>) -> Result<(String, bool), SimulationError> {
         excused.len(),
         flown.len() - showing,
     );
-    Ok((text, judged.is_empty()))
+    tell_of_landed(text, never);
+    report.lines.extend(flown.iter().map(|flight| {
+        let row = format!("random {:?}", flight.quantity);
+        let RandomFlight { airframe, situation, number, own, .. } = flight;
+        line(row, airframe, *situation, *number, flight.shows, own, &flight.flown)
+    }));
+    Ok(())
 }
 
-fn run_listed(seeds: u64, only: Option<&str>) -> Result<(String, bool), SimulationError> {
-    if seeds == 0 {
-        return Ok((String::new(), true));
-    }
+fn fly_listed(request: &Request, report: &mut Report) -> Result<(), SimulationError> {
+    let Request { airframes, seeds, only, .. } = request;
     let mut failures = failures();
-    failures.retain(|failure| only.is_none_or(|only| failure.name.contains(only)));
+    failures.retain(|failure| only.as_ref().is_none_or(|only| failure.name.contains(only)));
     let mut jobs = Vec::new();
-    for seed in 1..=seeds {
+    for seed in 1..=*seeds {
         for airframe in 0..AIRFRAMES.len() {
             jobs.extend((0..Situation::ALL.len()).map(|situation| (seed, airframe, situation)));
         }
     }
     let flown = parallel::map(&jobs, |(seed, airframe, situation)| {
-        fly((AIRFRAMES[airframe].profile)(), Situation::ALL[situation], seed, &failures)
+        fly(airframes.profile(airframe, seed), Situation::ALL[situation], seed, &failures)
     })?;
     let mut own = Row::new("(its own hover and landing)");
     let mut rows: Vec<Row> = failures.iter().map(row_of).collect();
     for ((seed, airframe, situation), siblings) in jobs.iter().zip(&flown) {
+        let Some(siblings) = siblings else { continue };
         own.see(&siblings.own, &siblings.own, *situation, *airframe, *seed);
-        for (row, excursion) in rows.iter_mut().zip(&siblings.flown) {
-            row.see(excursion, &siblings.own, *situation, *airframe, *seed);
+        for ((row, failure), flown) in rows.iter_mut().zip(&failures).zip(&siblings.flown) {
+            row.see(&flown.excursion, &siblings.own, *situation, *airframe, *seed);
+            report.lines.push(line(
+                failure.name.clone(),
+                airframes.name(*airframe),
+                Situation::ALL[*situation],
+                *seed,
+                failure.shows(),
+                &siblings.own,
+                flown,
+            ));
         }
     }
-    let judged = rows.iter().zip(&failures).filter(|(_, failure)| failure.shows());
-    let good = judged.into_iter().all(|(row, _)| row.too_far == 0);
     rows.push(own);
-    Ok((table(&rows), good))
+    report.text += &table(&rows);
+    tell_of_landed(&mut report.text, flown.iter().filter(|siblings| siblings.is_none()).count());
+    Ok(())
+}
+
+/// Tells how many healthy drones were landed before a sensor could fail.
+fn tell_of_landed(text: &mut String, landed: usize) {
+    if landed > 0 {
+        _ = writeln!(text, "{landed} healthy drones were landed before a sensor could fail");
+    }
+}
+
+fn line(
+    row: String,
+    airframe: &str,
+    situation: Situation,
+    seed: u64,
+    judged: bool,
+    own: &Excursion,
+    flown: &Flown,
+) -> Line {
+    let Flown { excursion, reaction, outcome } = flown;
+    Line {
+        row,
+        airframe: airframe.to_owned(),
+        situation: situation.to_string(),
+        seed,
+        judged,
+        away_m: excursion.away_m,
+        outside_m: excursion.outside_m,
+        scraping_s: excursion.scraping.as_secs_f64(),
+        airborne: excursion.airborne,
+        too_far: excursion.is_too_far(own),
+        reaction_s: reaction.map(|reaction| reaction.as_secs_f64()),
+        outcome: outcome.to_string(),
+    }
 }
 
 /// Failures that navdata cannot show are marked: they are reported but not judged.

@@ -3,6 +3,7 @@
 //! World frame: x right, y forward, z up, metres; yaw in radians, clockwise from above.
 //! Angles: pitch nose up, roll right side down.
 
+mod near;
 mod profile;
 
 use std::time::Duration;

@@ -8,7 +8,7 @@ use autopilot::Plan;
 use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{OperatorOrder, Place, VehicleConfig};
 use kinematics::Sticks;
-use mock_drone::airframe::{GRAVITY_M_S2, Profile, ThrustLaw};
+use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, Quantity, SensorFault, WorldConfig};
@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use super::injected::Injected;
 use super::station::Station;
 use super::tags::Tags;
-use crate::sensors::{AIRFRAMES, Model};
+use crate::airframes::{AIRFRAMES, Airframes, strongest_wind_m_s};
 use crate::sim::Simulation;
 use crate::trial::FENCE;
 
@@ -44,13 +44,14 @@ pub(super) struct Flight {
 
 impl Flight {
     /// The flight of a seed.
-    pub(super) fn of(seed: u64) -> Self {
+    pub(super) fn of(airframes: Airframes, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let random = &mut random;
         let limits = FlightLimits { ceiling_m: random.random_range(1.6..3.0), ..FENCE };
-        let Model { name: airframe, profile } = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
-        let strongest_m_s = strongest_wind_m_s(&profile());
-        let mut drone = drone(random, seed, profile(), strongest_m_s, &limits);
+        let airframe = random.random_range(0..AIRFRAMES.len());
+        let (profile, airframe) = (airframes.profile(airframe, seed), airframes.name(airframe));
+        let strongest_m_s = strongest_wind_m_s(&profile);
+        let mut drone = drone(random, seed, profile, strongest_m_s, &limits);
         let link = if random.random_bool(0.3) { LinkFaults::default() } else { link(random) };
         let mut injected = injected(random, strongest_m_s, drone.flies_at_m.is_some());
         let mut orders = orders(random);
@@ -222,20 +223,6 @@ fn orders(random: &mut impl Rng) -> Vec<(Duration, OperatorOrder)> {
         }
     }
     orders
-}
-
-/// The strongest wind that the airframe resists at 12° of tilt. No pilot could hold it against more.
-fn strongest_wind_m_s(profile: &Profile) -> f64 {
-    let tilt_rad = 12_f64.to_radians();
-    let acceleration = match profile.thrust {
-        ThrustLaw::CarriesWeight => Vector2::repeat(GRAVITY_M_S2 * tilt_rad.tan()),
-        ThrustLaw::Sine { acceleration_m_s2 } => {
-            Vector2::repeat(acceleration_m_s2 * tilt_rad.sin())
-        }
-        ThrustLaw::Linear { acceleration_m_s2 } => acceleration_m_s2 * tilt_rad,
-    };
-    // Quadratic drag reduces it slightly.
-    0.8 * acceleration.component_div(&profile.linear_drag_1_s).min()
 }
 
 fn plan(random: &mut impl Rng, limits: &FlightLimits, flies: bool) -> String {

@@ -471,6 +471,7 @@ pub(super) struct Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::airframes::Airframes;
 
     /// Seconds after which the judge reports a danger of this duration, in a flight that goes on.
     fn patience_s(danger: Danger, lasts_s: u32, reached: bool) -> Option<f64> {
@@ -503,7 +504,7 @@ mod tests {
     #[test]
     fn each_flight_is_the_same_for_judge_and_pilot() {
         for seed in 0..50 {
-            let flight = Flight::of(seed);
+            let flight = Flight::of(Airframes::Published, seed);
             assert_eq!(flight.simulation.world.scenario, flight.injected.scenario());
             assert_eq!(flight.simulation.stalls, flight.injected.stalls);
         }

@@ -19,6 +19,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::{FlightEvent, LandingReason};
 
+use crate::airframes::Airframes;
 use crate::sim::SimulationError;
 
 pub use self::fault::{Danger, Fault};
@@ -56,12 +57,20 @@ impl Verdict {
     }
 }
 
+/// Flies the flight of a seed with a published airframe.
+///
+/// # Errors
+/// As [`fly_of`].
+pub fn fly(seed: u64) -> Result<Verdict, SimulationError> {
+    fly_of(Airframes::Published, seed)
+}
+
 /// Flies the flight of a seed.
 ///
 /// # Errors
 /// [`SimulationError`] if the flight never ends, which is a failure of the campaign itself.
-pub fn fly(seed: u64) -> Result<Verdict, SimulationError> {
-    let flight = Flight::of(seed);
+pub fn fly_of(airframes: Airframes, seed: u64) -> Result<Verdict, SimulationError> {
+    let flight = Flight::of(airframes, seed);
     let mut judge = Judge::new(&flight);
     let flown = flight
         .simulation

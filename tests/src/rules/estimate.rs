@@ -9,8 +9,9 @@ use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
 use nalgebra::Vector2;
 
+use crate::airframes::{AIRFRAMES, Model};
 use crate::plan;
-use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
+use crate::sensors::MOST_OUTSIDE_M;
 use crate::sim::SimulationError;
 use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 

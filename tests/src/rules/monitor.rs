@@ -8,8 +8,8 @@ use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault};
 
+use crate::airframes::{AIRFRAMES, Model};
 use crate::plan;
-use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::SimulationError;
 use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 

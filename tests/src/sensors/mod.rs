@@ -8,7 +8,9 @@ mod random;
 use std::fmt;
 use std::time::Duration;
 
+use ardrone_link::at::Motion;
 use autopilot::Plan;
+use autopilot::outcome::Outcome;
 use autopilot::vehicle::{TICK, VehicleConfig};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
@@ -19,9 +21,10 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-pub use random::{RandomFlight, random};
+pub use random::{RandomFlight, random, random_of};
 
-use crate::sim::{Simulation, SimulationError};
+use crate::airframes::Model;
+use crate::sim::{Moment, Simulation, SimulationError};
 use crate::trial::{FENCE, FOR_EVER};
 use crate::{alone, place_in_navdata_frame};
 
@@ -35,28 +38,13 @@ pub const OWN_MARGIN_M: f64 = 0.3;
 /// Longest allowed contact with the floor.
 pub const MOST_SCRAPING: Duration = Duration::from_secs(3);
 
+/// The first step of each plan.
+const TAKE_OFF: usize = 0;
 /// The step of each plan in which a sensor fails: its second `goto`, after its setting.
 const STEP: usize = 3;
 /// Hover height after take-off, in metres.
 const HOVER_M: f64 = 0.85;
 const AFTERMATH: Duration = Duration::from_secs(30);
-
-/// A published model of the airframe.
-#[derive(Debug, Clone, Copy)]
-pub struct Model {
-    /// Name for reports.
-    pub name: &'static str,
-    /// The model.
-    pub profile: fn() -> Profile,
-}
-
-/// All airframes.
-pub const AIRFRAMES: [Model; 4] = [
-    Model { name: "rec", profile: Profile::rec },
-    Model { name: "tum", profile: Profile::tum },
-    Model { name: "tf", profile: Profile::tf },
-    Model { name: "leo", profile: Profile::leo },
-];
 
 /// Activity of the drone when a sensor fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -276,6 +264,62 @@ fn nearest_on_way(place: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> 
     from + way * share.clamp(0.0, 1.0)
 }
 
+/// A flight with a failure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flown {
+    /// How far the failure led the drone astray.
+    pub excursion: Excursion,
+    /// Time from the failure until the drone was let hover or land before its plan had ended; `None` if nobody noticed.
+    pub reaction: Option<Duration>,
+    /// The pilot's account of it.
+    pub outcome: Outcome,
+}
+
+/// Sees when a failure is answered.
+#[derive(Debug, Clone, Copy, Default)]
+struct Answer {
+    at: Option<Duration>,
+    /// The plan has come to its own landing.
+    is_over: bool,
+}
+
+impl Answer {
+    fn see(&mut self, moment: &Moment) {
+        let step = moment.status.step;
+        self.is_over |= step.is_some_and(|step| step > STEP);
+        let answers = match moment.truth.phase {
+            // While it takes off it hovers by itself.
+            Phase::Flying => {
+                moment.truth.motion == Motion::Hover && step.is_none_or(|step| step > TAKE_OFF)
+            }
+            Phase::Landing => true,
+            _ => false,
+        };
+        if answers && !self.is_over {
+            self.at.get_or_insert(moment.now);
+        }
+    }
+}
+
+/// Flies with a failure that begins at a time.
+fn flown(
+    faulty: &Simulation,
+    plan: Plan,
+    at: Duration,
+    between: [Vector3<f64>; 2],
+) -> Result<Flown, SimulationError> {
+    let (mut excursion, mut answer) = (Excursion::default(), Answer::default());
+    let flight = faulty.fly_watched(plan, |moment| {
+        if moment.now >= at {
+            excursion.see(&moment.truth, between);
+            answer.see(moment);
+        }
+    })?;
+    excursion.airborne = !matches!(flight.final_truth.phase, Phase::Landed | Phase::Emergency);
+    let reaction = answer.at.map(|answered| answered.saturating_sub(at));
+    Ok(Flown { excursion, reaction, outcome: flight.outcome })
+}
+
 /// Flights that are identical up to the fault.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Siblings {
@@ -284,7 +328,7 @@ pub struct Siblings {
     /// The drone's own hover for two seconds, then its own landing: the best that can be achieved.
     pub own: Excursion,
     /// With each of the failures, in their order.
-    pub flown: Vec<Excursion>,
+    pub flown: Vec<Flown>,
 }
 
 /// Flies every situation with each failure, and returns descriptions of detectable failures that led the
@@ -300,8 +344,9 @@ pub fn led_astray(airframe: Model, seed: u64) -> Result<Vec<String>, SimulationE
     let failures = failures();
     let mut found = Vec::new();
     for situation in Situation::ALL {
-        let siblings = fly(profile(), situation, seed, &failures)?;
-        for (failure, excursion) in failures.iter().zip(&siblings.flown) {
+        let siblings = fly(profile(), situation, seed, &failures)?
+            .unwrap_or_else(|| panic!("{name} {situation}, seed {seed}: never came so far"));
+        for (failure, Flown { excursion, .. }) in failures.iter().zip(&siblings.flown) {
             if failure.shows() && excursion.is_too_far(&siblings.own) {
                 found.push(format!("{name} {situation} {seed}: {}: {excursion:?}", failure.name));
             }
@@ -310,26 +355,21 @@ pub fn led_astray(airframe: Model, seed: u64) -> Result<Vec<String>, SimulationE
     Ok(found)
 }
 
-/// Flies a situation with each of the failures.
+/// Flies a situation with each of the failures; `None` if the healthy drone is landed before a sensor could fail, which
+/// says nothing of failures.
 ///
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
-///
-/// # Panics
-/// If the healthy flight ends before the sensor could fail.
 pub fn fly(
     profile: Profile,
     situation: Situation,
     seed: u64,
     failures: &[Failure],
-) -> Result<Siblings, SimulationError> {
+) -> Result<Option<Siblings>, SimulationError> {
     let (plan, between) = situation.plan();
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x7365_6e73);
     let healthy = simulation(profile, situation, seed, &mut random);
-    let began = healthy
-        .fly(plan.clone())?
-        .start_of_step(STEP)
-        .unwrap_or_else(|| panic!("{situation}, seed {seed}: never came so far"));
+    let Some(began) = healthy.fly(plan.clone())?.start_of_step(STEP) else { return Ok(None) };
     let into = match situation {
         Situation::Holding => random.random_range(3.0..6.0),
         _ => random.random_range(0.2..1.5),
@@ -344,18 +384,10 @@ pub fn fly(
         }
         let mut faulty = healthy.clone();
         faulty.world.scenario = scenario;
-        let mut excursion = Excursion::default();
-        let flight = faulty.fly_watched(plan.clone(), |moment| {
-            if moment.now >= at {
-                excursion.see(&moment.truth, between);
-            }
-        })?;
-        let phase = flight.final_truth.phase;
-        excursion.airborne = !matches!(phase, Phase::Landed | Phase::Emergency);
-        Ok(excursion)
+        flown(&faulty, plan.clone(), at, between)
     });
     let flown = flown.collect::<Result<_, SimulationError>>()?;
-    Ok(Siblings { at, own, flown })
+    Ok(Some(Siblings { at, own, flown }))
 }
 
 /// How far the drone goes by itself, if it is ordered to hover at a time and to land two seconds later.
@@ -396,5 +428,28 @@ fn simulation(
         pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },
         aftermath: AFTERMATH,
         ..Simulation::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reaction_is_one_to_the_failure_and_not_the_end_of_the_plan() {
+        let none = Failure { name: String::new(), faults: Vec::new() };
+        let stuck = vec![(Quantity::VelocityRight, SensorFault::Stuck)];
+        let stuck = Failure { name: String::new(), faults: stuck };
+        for situation in Situation::ALL {
+            let siblings =
+                fly(Profile::rec(), situation, 1, &[none.clone(), stuck.clone()]).unwrap().unwrap();
+            let [healthy, stuck] = siblings.flown.try_into().unwrap();
+            assert_eq!((healthy.reaction, healthy.outcome), (None, Outcome::Completed));
+            let reaction_s = stuck.reaction.map(|reaction| reaction.as_secs_f64());
+            assert!(
+                reaction_s.is_some_and(|reaction_s| (0.2..1.0).contains(&reaction_s)),
+                "{situation}: {reaction_s:?}"
+            );
+        }
     }
 }

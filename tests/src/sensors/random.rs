@@ -7,14 +7,13 @@
 use std::fmt;
 use std::time::Duration;
 
-use autopilot::outcome::Outcome;
-use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::{Quantity, SensorFault};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AIRFRAMES, Excursion, GAINS, STEP, Situation};
+use super::{Excursion, Flown, GAINS, STEP, Situation};
+use crate::airframes::{AIRFRAMES, Airframes};
 use crate::sim::SimulationError;
 use crate::trial::FOR_EVER;
 
@@ -81,26 +80,32 @@ impl fmt::Display for Pattern {
 pub struct RandomFlight {
     /// The flight and its failure, for reports.
     pub description: String,
+    /// Its number, of which all follows.
+    pub number: u64,
+    /// Name of the airframe.
+    pub airframe: &'static str,
+    /// What the drone does in the step that is observed.
+    pub situation: Situation,
+    /// The quantity that fails.
+    pub quantity: Quantity,
     /// Whether navdata can reveal the failure.
     pub shows: bool,
     /// The drone's own hover and landing instead: the best that can be achieved.
     pub own: Excursion,
     /// With the failure.
-    pub flown: Excursion,
-    /// The pilot's account of it.
-    pub outcome: Outcome,
+    pub flown: Flown,
 }
 
 impl RandomFlight {
     /// Whether the failure led the drone too far.
     pub fn is_too_far(&self) -> bool {
-        self.flown.is_too_far(&self.own)
+        self.flown.excursion.is_too_far(&self.own)
     }
 }
 
 impl fmt::Display for RandomFlight {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { description, own, flown, outcome, .. } = self;
+        let Self { description, own, flown: Flown { excursion: flown, outcome, .. }, .. } = self;
         write!(
             f,
             "{description}: {:.2} m away ({:.2} m by itself), {:.2} m outside, {:.1} s on the floor{}; {outcome}",
@@ -113,23 +118,33 @@ impl fmt::Display for RandomFlight {
     }
 }
 
-/// Flies the random failure of this number.
+/// Flies the random failure of this number with a published airframe.
 ///
 /// # Errors
-/// [`SimulationError`] if the flight never ends.
+/// As [`random_of`].
 ///
 /// # Panics
 /// If the healthy flight ends before the step that is observed.
 pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
+    let flight = random_of(Airframes::Published, number)?;
+    Ok(flight.unwrap_or_else(|| panic!("number {number}: never came so far")))
+}
+
+/// Flies the random failure of this number; `None` if the healthy drone is landed before the step that is observed.
+///
+/// # Errors
+/// [`SimulationError`] if the flight never ends.
+pub fn random_of(
+    airframes: Airframes,
+    number: u64,
+) -> Result<Option<RandomFlight>, SimulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(number ^ 0x7261_6e64);
-    let airframe = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
+    let airframe = random.random_range(0..AIRFRAMES.len());
+    let (profile, airframe) = (airframes.profile(airframe, number), airframes.name(airframe));
     let situation = Situation::ALL[random.random_range(0..Situation::ALL.len())];
     let (plan, between) = situation.plan();
-    let healthy = super::simulation((airframe.profile)(), situation, number, &mut random);
-    let began = healthy
-        .fly(plan.clone())?
-        .start_of_step(STEP)
-        .unwrap_or_else(|| panic!("{situation}, number {number}: never came so far"));
+    let healthy = super::simulation(profile, situation, number, &mut random);
+    let Some(began) = healthy.fly(plan.clone())?.start_of_step(STEP) else { return Ok(None) };
     let at_s = random.random_range(EARLIEST_S..began.as_secs_f64() + LATEST_S);
     let at = Duration::from_secs_f64(at_s);
     let quantity = Quantity::ALL[random.random_range(0..Quantity::ALL.len())];
@@ -139,24 +154,20 @@ pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
     let own = super::own_hover_and_landing(&healthy, &plan, at.max(began), between)?;
     let mut faulty = healthy;
     faulty.world.scenario = pattern.scenario(at, quantity, fault);
-    let mut flown = Excursion::default();
-    let flight = faulty.fly_watched(plan, |moment| {
-        if moment.now >= at {
-            flown.see(&moment.truth, between);
-        }
-    })?;
-    flown.airborne = !matches!(flight.final_truth.phase, Phase::Landed | Phase::Emergency);
-    Ok(RandomFlight {
+    let flown = super::flown(&faulty, plan, at, between)?;
+    Ok(Some(RandomFlight {
         description: format!(
-            "{number} {} {situation}: {quantity:?} {fault:?} at {at_s:.2} s (its step begins at {:.2} s) {pattern}",
-            airframe.name,
+            "{number} {airframe} {situation}: {quantity:?} {fault:?} at {at_s:.2} s (its step begins at {:.2} s) {pattern}",
             began.as_secs_f64(),
         ),
+        number,
+        airframe,
+        situation,
+        quantity,
         shows: shows(quantity, fault),
         own,
         flown,
-        outcome: flight.outcome,
-    })
+    }))
 }
 
 /// Values from small to large, small ones more often.

@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 
 use self::orders::{Moving, direction, give, nonsense, present, rate, seconds, stopping};
 
-use crate::sensors::AIRFRAMES;
+use crate::airframes::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
 use crate::trial;
 

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::list::Mutant;
 use super::{MutantsError, in_file};
+use crate::edit::Mutant;
 
 /// Target folder of the copy.
 const TARGET: &str = "target";
@@ -56,7 +56,7 @@ impl Workspace {
     ///
     /// # Errors
     /// [`MutantsError::Changed`] if a text to be replaced does not occur exactly once.
-    pub(super) fn changed(&self, mutant: &Mutant) -> Result<Changed, MutantsError> {
+    pub(super) fn changed<E>(&self, mutant: &Mutant<E>) -> Result<Changed, MutantsError> {
         let mut changed = Changed::new();
         for edit in mutant.edits() {
             let text = if let Some(text) = changed.remove(edit.file) {
@@ -132,7 +132,7 @@ impl Workspace {
 
 #[cfg(test)]
 mod tests {
-    use super::super::list::mutant;
+    use super::super::list::{Mutant, mutant};
     use super::*;
     use crate::edit::{edit, layered};
 
