@@ -13,6 +13,9 @@ const FURTHEST_M: f64 = 200.0;
 const LEAST_AREA_M2: f64 = PI * 0.25;
 /// Sides nearer to each other than this, in metres, meet: nobody measures rooms to a tenth of a millimetre.
 const MEETS_M: f64 = 1e-4;
+/// The nearest place that is inside by a distance is sought no further away than this many distances, as in a corner of 60°.
+/// Where there is none, as in a corridor, a place in the next room would be a flight that nobody ordered.
+const ASIDE: f64 = 2.0;
 /// Error of what is computed here, in metres.
 const ROUNDING_M: f64 = 1e-9;
 
@@ -179,29 +182,26 @@ impl Polygon {
             self.sides().enumerate().skip(i + 1).map(move |(j, other)| ((i, one), (j, other)))
         });
         let meets = |((i, one), (j, other)): &((usize, Side), (usize, Side))| {
-            let follows = j - i == 1;
-            let precedes = *i == 0 && j + 1 == self.count;
             if one.length_m < MEETS_M || other.length_m < MEETS_M {
                 return true;
             }
+            let touch = |side: &Side, end_m| side.distance_m(end_m) < MEETS_M;
+            let [begins, ends] = [
+                touch(one, other.end_m()) || touch(other, one.from_m),
+                touch(one, other.from_m) || touch(other, one.end_m()),
+            ];
             // Those with a common corner meet elsewhere if the far end of one lies on the other.
-            if follows {
-                return one.distance_m(other.end_m()) < MEETS_M
-                    || other.distance_m(one.from_m) < MEETS_M;
+            if j - i == 1 {
+                return begins;
             }
-            if precedes {
-                return one.distance_m(other.from_m) < MEETS_M
-                    || other.distance_m(one.end_m()) < MEETS_M;
+            if *i == 0 && j + 1 == self.count {
+                return ends;
             }
             let crosses = |a: &Side, b: &Side| {
                 let side_of = |place_m| cross(a.along, place_m - a.from_m) >= 0.0;
                 side_of(b.from_m) != side_of(b.end_m())
             };
-            let touches = [one.from_m, one.end_m()]
-                .iter()
-                .any(|end| other.distance_m(*end) < MEETS_M)
-                || [other.from_m, other.end_m()].iter().any(|end| one.distance_m(*end) < MEETS_M);
-            touches || crosses(one, other) && crosses(other, one)
+            begins || ends || crosses(one, other) && crosses(other, one)
         };
         pairs.into_iter().find(meets).map(|((i, _), (j, _))| (i, j))
     }
@@ -324,18 +324,18 @@ impl Polygon {
 
     pub(super) fn nearest_inside(&self, place_m: Vector2<f64>, by_m: f64) -> Vector2<f64> {
         let outside_m = self.outside_m(place_m);
-        let mut by_m = by_m;
         // Where it is too narrow for the whole distance, half of it is kept, and so on.
-        for _ in 0..8 {
+        let shares = (0..8).map(|halved| 0.5_f64.powi(halved)).chain([0.0]);
+        for by_m in shares.map(|share| share * by_m) {
             if outside_m <= -by_m + ROUNDING_M {
                 return place_m;
             }
-            if let Some(nearest_m) = self.nearest_on_edges(place_m, by_m) {
+            let most_m = outside_m.max(0.0) + ASIDE * by_m + ROUNDING_M;
+            if let Some(nearest_m) = self.nearest_on_edges(place_m, by_m, most_m) {
                 return nearest_m;
             }
-            by_m /= 2.0;
         }
-        self.nearest_on_edges(place_m, 0.0).unwrap_or_default()
+        self.nearest_on_edges(place_m, 0.0, f64::INFINITY).unwrap_or_default()
     }
 
     /// The parts of which the border of what is inside by `by_m` consists.
@@ -353,8 +353,13 @@ impl Polygon {
     }
 
     /// The nearest of the places where the border of what is inside by `by_m` can be nearest: on one of its parts, or where two
-    /// of them meet.
-    fn nearest_on_edges(&self, place_m: Vector2<f64>, by_m: f64) -> Option<Vector2<f64>> {
+    /// of them meet; at most `most_m` away.
+    fn nearest_on_edges(
+        &self,
+        place_m: Vector2<f64>,
+        by_m: f64,
+        most_m: f64,
+    ) -> Option<Vector2<f64>> {
         let away_m = |candidate_m: &Vector2<f64>| (candidate_m - place_m).norm();
         let is_inside =
             |candidate_m: &Vector2<f64>| self.outside_m(*candidate_m) <= -by_m + 2.0 * ROUNDING_M;
@@ -364,24 +369,25 @@ impl Polygon {
                 let nearest_m = nearest_on(&edge, place_m, by_m);
                 (away_m(&nearest_m), nearest_m, edge)
             })
+            .filter(|(nearest_away_m, ..)| *nearest_away_m <= most_m)
             .collect();
         edges.sort_unstable_by(|(one_m, ..), (other_m, ..)| one_m.total_cmp(other_m));
         let best = edges.iter().position(|(_, nearest_m, _)| is_inside(nearest_m));
         // Only parts that come nearer can meet nearer.
         let asked = edges.get(..best.unwrap_or(edges.len())).unwrap_or_default();
         let on_one = best.and_then(|best| edges.get(best));
-        let mut found = on_one.map(|(best_m, nearest_m, _)| (*best_m, *nearest_m));
+        let mut found_m = on_one.map(|(_, nearest_m, _)| *nearest_m);
+        let mut best_m = on_one.map_or(most_m, |(best_m, ..)| *best_m);
         for (i, (_, _, one)) in asked.iter().enumerate() {
             for (_, _, other) in asked.iter().skip(i + 1) {
                 for met_m in meet(one, other, by_m).into_iter().flatten() {
-                    let is_nearer = found.is_none_or(|(best_m, _)| away_m(&met_m) < best_m);
-                    if is_nearer && is_inside(&met_m) {
-                        found = Some((away_m(&met_m), met_m));
+                    if away_m(&met_m) < best_m && is_inside(&met_m) {
+                        (best_m, found_m) = (away_m(&met_m), Some(met_m));
                     }
                 }
             }
         }
-        found.map(|(_, nearest_m)| nearest_m)
+        found_m
     }
 }
 

@@ -44,21 +44,20 @@ proptest! {
         border in star(),
         (x_m, y_m) in (-8.0_f64..8.0, -8.0_f64..8.0),
         by_m in 0.0_f64..0.25,
-        others in prop::collection::vec((-6.0_f64..6.0, -6.0_f64..6.0), 64),
+        others in prop::collection::vec((-1.0_f64..1.0, -1.0_f64..1.0), 64),
     ) {
         let place_m = at(x_m, y_m);
         let nearest_m = border.nearest_inside(place_m, by_m);
-        // Where it is too narrow for the distance it is inside at least.
+        // Where it is too narrow for the distance it is inside at least, and near.
+        let most_m = border.outside_m(place_m).max(0.0) + 2.0 * by_m;
+        let moved_m = (nearest_m - place_m).norm();
         prop_assert!(border.outside_m(nearest_m) <= FlightLimits::TOLERANCE_M);
-        let is_wide = border.outside_m(Vector2::zeros()) <= -by_m;
-        if is_wide {
-            prop_assert!(border.outside_m(nearest_m) <= -by_m + FlightLimits::TOLERANCE_M);
-            for other in others {
-                let other_m = at(other.0, other.1);
-                if border.outside_m(other_m) <= -by_m {
-                    let further_m = (other_m - place_m).norm() - (nearest_m - place_m).norm();
-                    prop_assert!(further_m >= -FlightLimits::TOLERANCE_M, "{other_m}");
-                }
+        prop_assert!(moved_m <= most_m + FlightLimits::TOLERANCE_M);
+        for (right, forward) in others {
+            let way_m = at(right, forward) * most_m;
+            if way_m.norm() <= most_m && border.outside_m(place_m + way_m) <= -by_m {
+                prop_assert!(border.outside_m(nearest_m) <= -by_m + FlightLimits::TOLERANCE_M);
+                prop_assert!(moved_m <= way_m.norm() + FlightLimits::TOLERANCE_M, "{way_m}");
             }
         }
     }
@@ -69,9 +68,10 @@ proptest! {
         if border.outside_m(place_m) <= -by_m {
             prop_assert_eq!(border.nearest_inside(place_m, by_m), place_m);
         }
-        let nearest_m = border.nearest_inside(place_m, by_m);
-        let again_m = border.nearest_inside(nearest_m, by_m);
-        prop_assert!((again_m - nearest_m).norm() <= FlightLimits::TOLERANCE_M);
+        // In a sharp corner it goes on to where there is more room, and stays there.
+        let moved = |from_m, _| border.nearest_inside(from_m, by_m);
+        let there_m = (0..9).fold(place_m, moved);
+        prop_assert!((moved(there_m, 0) - there_m).norm() <= FlightLimits::TOLERANCE_M);
     }
 
     /// The way ends at the border, and nowhere before it is further outside.
@@ -169,6 +169,14 @@ fn inside_by_a_distance_is_beside_the_sides_and_around_corners_that_point_in() {
     let narrow = border(&[[-0.3, -5.0], [0.3, -5.0], [0.3, 5.0], [-0.3, 5.0]]);
     let found_m = narrow.nearest_inside(at(2.0, 1.0), 0.5);
     assert!((found_m - at(0.05, 1.0)).norm() < 1e-9, "{found_m}");
+    // So there are in one of 0.9 m between two rooms: the next place with half a metre is in a room.
+    let one = [[-2.0, -2.0], [2.0, -2.0], [2.0, -0.45], [6.0, -0.45], [6.0, -2.0], [9.0, -2.0]];
+    let mirrored = one.map(|[x, y]| [x, -y]).into_iter().rev();
+    let two_rooms = border(&one.into_iter().chain(mirrored).collect::<Vec<_>>());
+    for (y_m, found_y_m) in [(0.1, 0.1), (0.4, 0.2), (-0.9, -0.2)] {
+        let found_m = two_rooms.nearest_inside(at(4.0, y_m), 0.5);
+        assert!((found_m - at(4.0, found_y_m)).norm() < 1e-9, "{found_m}");
+    }
 }
 
 #[test]
