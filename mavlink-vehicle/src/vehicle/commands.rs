@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use autopilot::vehicle::{OperatorOrder, Place};
+use kinematics::Pose;
 
 use super::arming::Then;
 use super::following::Source;
@@ -451,11 +452,10 @@ impl MavlinkVehicle {
             }
         };
         let limits = self.config.limits;
-        let (low_m, high_m) = (limits.floor_m - GRID_M, limits.ceiling_m + GRID_M);
-        let outside = place
-            .ground_m
-            .is_some_and(|(x_m, y_m)| limits.border.outside_m([x_m, y_m].into()) > GRID_M);
-        if outside || place.z_m.is_some_and(|z_m| !(low_m..=high_m).contains(&z_m)) {
+        // What is not given is inside at the start.
+        let (x_m, y_m) = place.ground_m.unwrap_or_default();
+        let z_m = place.z_m.unwrap_or(limits.floor_m);
+        if !limits.is_inside(&Pose { x_m, y_m, z_m, yaw_deg: 0.0 }, GRID_M) {
             self.warn(format_args!(
                 "outside the fence: {}, {} to {} m high",
                 limits.border, limits.floor_m, limits.ceiling_m
