@@ -1,7 +1,7 @@
 //! `[fence]`: where the drone may fly. It is a circle or a polygon, so that one value stands in place of another, which a
 //! [`section!`](super::section) cannot say.
 
-use autopilot::plan::{Border, BorderError, FlightLimits, Shape};
+use autopilot::plan::{Border, FlightLimits, Shape};
 use autopilot::vehicle::VehicleConfig;
 use serde::{Deserialize, Serialize};
 
@@ -9,31 +9,29 @@ use super::section::{Comments, Section, outside};
 
 /// Where the drone may fly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Written")]
-#[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
+#[serde(try_from = "Written", into = "Written")]
 pub(super) struct Fence {
     pub(super) floor_m: f64,
     pub(super) ceiling_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    radius_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    polygon_m: Option<Corners>,
+    border: Border,
 }
 
 /// The section as it is written: the border may be missing, or be there twice.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
 struct Written {
     floor_m: f64,
     ceiling_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
     radius_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     polygon_m: Option<Corners>,
 }
 
 /// The corners of a polygon that is a border.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Vec<f64>>", into = "Vec<[f64; 2]>")]
 struct Corners(Border);
 
 impl Fence {
@@ -52,19 +50,19 @@ impl Fence {
         ],
     );
 
-    fn of(limits: &FlightLimits) -> Self {
-        let FlightLimits { floor_m, ceiling_m, border, .. } = *limits;
-        let (radius_m, polygon_m) = match border.shape() {
-            Shape::Circle { radius_m } => (Some(radius_m), None),
-            Shape::Polygon(_) => (None, Some(Corners(border))),
-        };
-        Self { floor_m, ceiling_m, radius_m, polygon_m }
+    /// Of a circle.
+    fn radius_m(&self) -> Option<f64> {
+        match self.border.shape() {
+            Shape::Circle { radius_m } => Some(radius_m),
+            Shape::Polygon(_) => None,
+        }
     }
 }
 
 impl Default for Fence {
     fn default() -> Self {
-        Self::of(&VehicleConfig::default().limits)
+        let FlightLimits { floor_m, ceiling_m, border, .. } = VehicleConfig::default().limits;
+        Self { floor_m, ceiling_m, border }
     }
 }
 
@@ -75,51 +73,64 @@ impl Default for Written {
     }
 }
 
+impl From<Fence> for Written {
+    fn from(fence: Fence) -> Self {
+        let (radius_m, Fence { floor_m, ceiling_m, border }) = (fence.radius_m(), fence);
+        let polygon_m = radius_m.is_none().then_some(Corners(border));
+        Self { floor_m, ceiling_m, radius_m, polygon_m }
+    }
+}
+
 impl TryFrom<Written> for Fence {
     type Error = &'static str;
 
     fn try_from(written: Written) -> Result<Self, Self::Error> {
         let Written { floor_m, ceiling_m, radius_m, polygon_m } = written;
-        if radius_m.is_some() && polygon_m.is_some() {
-            return Err("a fence has `radius_m` or `polygon_m`: leave one of them out");
-        }
-        let default = Self::default();
-        let radius_m = if polygon_m.is_some() { None } else { radius_m.or(default.radius_m) };
-        Ok(Self { floor_m, ceiling_m, radius_m, polygon_m })
+        let border = match (radius_m, polygon_m) {
+            (Some(_), Some(_)) => {
+                return Err("a fence has `radius_m` or `polygon_m`: leave one of them out");
+            }
+            (None, Some(Corners(border))) => border,
+            (Some(radius_m), None) => Border::circle(radius_m),
+            (None, None) => Self::default().border,
+        };
+        Ok(Self { floor_m, ceiling_m, border })
     }
 }
 
-impl TryFrom<Vec<[f64; 2]>> for Corners {
-    type Error = BorderError;
+impl TryFrom<Vec<Vec<f64>>> for Corners {
+    type Error = String;
 
-    fn try_from(corners_m: Vec<[f64; 2]>) -> Result<Self, BorderError> {
-        Border::polygon(&corners_m).map(Self)
+    fn try_from(written_m: Vec<Vec<f64>>) -> Result<Self, String> {
+        // Read as pairs, what is behind the second number would be dropped without a word.
+        let pair = |(index, corner_m): (usize, Vec<f64>)| {
+            corner_m.try_into().map_err(|_| {
+                format!("corner {} is not two numbers: give [right, forward] in metres", index + 1)
+            })
+        };
+        let corners_m = written_m.into_iter().enumerate().map(pair);
+        let corners_m = corners_m.collect::<Result<Vec<[f64; 2]>, _>>()?;
+        Border::polygon(&corners_m).map(Self).map_err(|error| error.to_string())
     }
 }
 
 impl From<Corners> for Vec<[f64; 2]> {
     fn from(corners: Corners) -> Self {
-        match corners.0.shape() {
-            Shape::Circle { .. } => Self::new(),
-            Shape::Polygon(corners_m) => corners_m.to_vec(),
-        }
+        corners.0.outline_m().collect()
     }
 }
 
 impl Section<VehicleConfig> for Fence {
     fn apply(&self, config: &mut VehicleConfig) {
-        let round = self.radius_m.map(Border::circle);
-        let border = self.polygon_m.as_ref().map(|corners| corners.0).or(round);
-        let limits = &mut config.limits;
-        (limits.floor_m, limits.ceiling_m) = (self.floor_m, self.ceiling_m);
-        limits.border = border.unwrap_or(limits.border);
+        let Self { floor_m, ceiling_m, border } = *self;
+        config.limits = FlightLimits { floor_m, ceiling_m, border, ..config.limits };
     }
 
     fn out_of_range(&self) -> Vec<String> {
         let numbers = [
             ("fence.floor_m", Some(self.floor_m), 0.1..=3.0),
             ("fence.ceiling_m", Some(self.ceiling_m), 0.5..=100.0),
-            ("fence.radius_m", self.radius_m, 0.5..=200.0),
+            ("fence.radius_m", self.radius_m(), 0.5..=200.0),
         ];
         let wrong = |(name, value, range)| outside(name, value?, &range);
         numbers.into_iter().filter_map(wrong).collect()
@@ -180,7 +191,12 @@ mod tests {
                 "line 2, column 13",
                 "the start (0, 0) is outside",
             ),
-            ("polygon_m = [[1, -2, 0], [3, -2], [3, 2]]", "line 2, column", ""),
+            (
+                "polygon_m = [[-2, -2], [2, -2, 1], [0, 2]]",
+                "line 2, column 13",
+                "corner 2 is not two numbers",
+            ),
+            ("polygon_m = [[-2, -2], [2], [0, 2]]", "line 2, column 13", "corner 2 is not two"),
             ("polygon_m = \"round\"", "line 2, column 13", ""),
             ("polygon = 1", "line 2, column 1", "polygon_m"),
         ] {
