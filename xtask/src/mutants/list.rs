@@ -372,6 +372,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "self.outside_m(place) <= margin_m && place.z_m",
                 "self.outside_m(place) <= margin_m.max(1e9) && place.z_m",
             ),
+            edit(
+                SAFETY,
+                "fence.stop_before(&now.pose, &inside, BEYOND_M, INSIDE_M)",
+                "fence.stop_before(&now.pose, &inside, BEYOND_M.max(1e9), INSIDE_M)",
+            ),
         ],
     ),
     // Tags.
