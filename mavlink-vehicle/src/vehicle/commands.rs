@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use autopilot::vehicle::{OperatorOrder, Place};
-use kinematics::Pose;
 
 use super::arming::Then;
 use super::following::Source;
@@ -452,10 +451,12 @@ impl MavlinkVehicle {
             }
         };
         let limits = self.config.limits;
-        // What is not given is inside at the start.
-        let (x_m, y_m) = place.ground_m.unwrap_or_default();
-        let z_m = place.z_m.unwrap_or(limits.floor_m);
-        if !limits.is_inside(&Pose { x_m, y_m, z_m, yaw_deg: 0.0 }, GRID_M) {
+        // A height of a tenth of a millimetre beyond is one that was rounded.
+        let (low_m, high_m) = (limits.floor_m - 1e-3, limits.ceiling_m + 1e-3);
+        let outside = place
+            .ground_m
+            .is_some_and(|(x_m, y_m)| limits.border.outside_m([x_m, y_m].into()) > GRID_M);
+        if outside || place.z_m.is_some_and(|z_m| !(low_m..=high_m).contains(&z_m)) {
             self.warn(format_args!(
                 "outside the fence: {}, {} to {} m high",
                 limits.border, limits.floor_m, limits.ceiling_m
