@@ -142,7 +142,6 @@ pub fn bad(seeds: impl IntoIterator<Item = u64>) -> Result<Vec<String>, Simulati
 /// A stream of orders that move the drone, then one of orders that stop it.
 struct Stream {
     airframe: usize,
-    fence: FlightLimits,
     simulation: Simulation,
     plan: Plan,
     /// Who orders it to stop.
@@ -246,20 +245,7 @@ impl Stream {
         };
         let plan =
             plan(&format!("takeoff\ngoto 0 0 {up_m} 0\nsetStayTime 90\ngoto 0 0 {up_m} 0\nland\n"));
-        Self {
-            airframe,
-            fence,
-            simulation,
-            plan,
-            by,
-            moves,
-            stops_at,
-            stops,
-            kinds,
-            ends,
-            lands_at,
-            what,
-        }
+        Self { airframe, simulation, plan, by, moves, stops_at, stops, kinds, ends, lands_at, what }
     }
 
     /// Whether the drone flew when it was first ordered to stop, so that the way that it needs means something.
@@ -294,7 +280,8 @@ impl Stream {
             if !is_up || moment.now >= ordered_to_land {
                 return;
             }
-            course.outside_m = course.outside_m.max(outside_m(truth, &self.fence));
+            course.outside_m =
+                course.outside_m.max(outside_m(truth, &self.simulation.pilot.limits));
             if moment.now >= BEGINS {
                 let before = *touched_before.get_or_insert(truth.floor_contacts);
                 course.touches = truth.floor_contacts - before;
