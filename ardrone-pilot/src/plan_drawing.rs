@@ -1,7 +1,5 @@
 //! Drawing of a plan: top view and height over time.
 
-use std::f64::consts::TAU;
-
 use autopilot::plan::{FlightLimits, Plan};
 use autopilot::vehicle::SurveyedTag;
 use diagnostic::printable;
@@ -11,6 +9,8 @@ use plotters::prelude::*;
 use crate::drawing::{self, Drawing, Drawn, FONT};
 
 const SIZE: (u32, u32) = (960, 500);
+/// Pieces of the fence are no longer, in metres.
+const PIECE_M: f64 = 0.2;
 const WAY: RGBColor = RGBColor(25, 95, 170);
 const FENCE: RGBColor = RGBColor(190, 60, 40);
 const TAG: RGBColor = RGBColor(20, 20, 20);
@@ -96,14 +96,10 @@ fn from_above(
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.1))
         .draw()?;
-    let corner = |part: u32| {
-        let angle = TAU * f64::from(part) / 360.0;
-        (limits.radius_m * angle.sin(), limits.radius_m * angle.cos())
-    };
     // The library would draw points outside along the edge.
     let inside = |(at_x, at_y): (f64, f64)| (at_x - x).abs() < half_m && (at_y - y).abs() < half_m;
-    let fence = (0..360).map(|part| [corner(part), corner(part + 1)]);
-    let fence = fence.filter(|[from, to]| inside(*from) && inside(*to));
+    let sides = limits.border.sides_m().flat_map(pieces);
+    let fence = sides.filter(|[from, to]| inside(*from) && inside(*to));
     chart.draw_series(fence.map(|part| PathElement::new(part, FENCE.stroke_width(2))))?;
     let way = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
     chart.draw_series(LineSeries::new(way, WAY.stroke_width(2)))?;
@@ -133,6 +129,22 @@ fn from_above(
         EmptyElement::at((pose.x_m, pose.y_m)) + Text::new(numbers.join(", "), (7, 6), (FONT, 14))
     }))?;
     Ok(())
+}
+
+/// A side of the fence in short pieces, of which those in view are drawn.
+fn pieces([from, to]: [[f64; 2]; 2]) -> impl Iterator<Item = [(f64, f64); 2]> {
+    let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let count = (length_m / PIECE_M).ceil().clamp(1.0, 10_000.0);
+    let at = move |share: f64| {
+        let between = |axis: usize| from[axis] + share * (to[axis] - from[axis]);
+        (between(0), between(1))
+    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 10 000")]
+    let parts = 0..count as u32;
+    parts.map(move |part| {
+        let [begins, ends] = [f64::from(part), f64::from(part + 1)].map(|part| at(part / count));
+        [begins, ends]
+    })
 }
 
 /// Height over time, between floor and ceiling.

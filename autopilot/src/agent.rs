@@ -27,7 +27,7 @@ use activity::Pursuit;
 pub use bindings::{Agent, PLANS, STATE_BYTES};
 pub use source::{SOURCE, plan_text};
 pub use tags::TagPercepts;
-use tags::{place_to_look_from, room_m};
+use tags::place_to_look_from;
 
 /// Parameters of approaching and holding a target; plans can change them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -318,7 +318,7 @@ impl Environment for AgentStep {
         if let Some(pose) = self.percepts.pose {
             let Pose { x_m, y_m, z_m, yaw_deg } = self.activity.place_to_stay(&pose);
             beliefs.set_position(x_m, y_m, z_m, yaw_deg);
-            beliefs.set_fence_room(room_m(&pose, &self.percepts.fence));
+            beliefs.set_fence_room(-self.percepts.fence.outside_m(&pose));
         }
         if let Some(tags) = self.percepts.tags {
             beliefs.set_tag_age(tags.age_ms);

@@ -1,6 +1,15 @@
-//! Where the drone may fly.
+//! Where the drone may fly: the only place that knows the shape of the fence. Whoever checks a plan, flies, stops, shows or
+//! tells of the fence asks here.
+
+mod border;
+mod polygon;
 
 use kinematics::Pose;
+use nalgebra::Vector2;
+
+pub use self::border::{Border, Shape};
+pub(crate) use self::polygon::Wall;
+pub use self::polygon::{BorderError, MAX_CORNERS};
 
 /// Origin of a plan's heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -27,22 +36,22 @@ impl ZOrigin {
     }
 }
 
-/// The fence: lowest and highest height and the radius within which the drone may fly.
+/// The fence: lowest and highest height, and the border within which the drone may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {
     /// Lowest target height above the floor, in metres.
     pub floor_m: f64,
     /// Highest target height above the floor, in metres.
     pub ceiling_m: f64,
-    /// Largest horizontal distance of a target from the start, in metres.
-    pub radius_m: f64,
+    /// Horizontally, around the start.
+    pub border: Border,
     /// Origin of the plan's heights.
     pub z_origin: ZOrigin,
 }
 
 impl Default for FlightLimits {
     fn default() -> Self {
-        Self { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover }
+        Self::new(Border::circle(10.0), 0.3, 3.0)
     }
 }
 
@@ -51,9 +60,19 @@ impl FlightLimits {
     /// targets are checked against the fence again then.
     pub(crate) const EXPECTED_HOVER_M: f64 = 0.85;
 
-    /// Tolerance of the fence check: heights are typed with a few digits, and a target on the limit is
-    /// inside.
-    pub(crate) const TOLERANCE_M: f64 = 1e-9;
+    /// Tolerance of all questions about the fence, in metres: places are sums of numbers with a few digits, and a target on
+    /// the fence is inside. No sensor and no wire can tell less.
+    pub const TOLERANCE_M: f64 = 1e-6;
+
+    /// A fence with this border, from a lowest to a highest height above the floor in metres. Heights of plans count from
+    /// the hover.
+    pub const fn new(border: Border, floor_m: f64, ceiling_m: f64) -> Self {
+        Self { floor_m, ceiling_m, border, z_origin: ZOrigin::Hover }
+    }
+
+    /// No limits at all.
+    pub const NONE: Self =
+        Self::new(Border::circle(f64::INFINITY), f64::NEG_INFINITY, f64::INFINITY);
 
     /// Height above the floor of z = 0 in the take-off reference, in metres.
     pub fn origin_height_m(&self, hover_m: f64) -> f64 {
@@ -63,16 +82,40 @@ impl FlightLimits {
         }
     }
 
-    /// Clamps a place to the fence, shrunk horizontally by `by_m`.
+    /// Clamps a place to the fence, shrunk horizontally by `by_m`, or by as much as there is.
     pub fn nearest_inside(&self, place: &Pose, by_m: f64) -> Pose {
-        let away_m = place.x_m.hypot(place.y_m);
-        let allowed_m = (self.radius_m - by_m).max(0.0);
-        let share = if away_m > allowed_m { allowed_m / away_m } else { 1.0 };
-        Pose {
-            x_m: place.x_m * share,
-            y_m: place.y_m * share,
-            z_m: place.z_m.clamp(self.floor_m, self.ceiling_m),
-            ..*place
-        }
+        let [x_m, y_m] = self.border.nearest_inside(across(place), by_m).into();
+        Pose { x_m, y_m, z_m: place.z_m.clamp(self.floor_m, self.ceiling_m), ..*place }
+    }
+
+    /// Whether a place is inside the fence, widened by a margin.
+    pub fn is_inside(&self, place: &Pose, margin_m: f64) -> bool {
+        place.z_m >= self.floor_m - margin_m && self.is_inside_above(place, margin_m)
+    }
+
+    /// The same without the fence's floor.
+    pub(crate) fn is_inside_above(&self, place: &Pose, margin_m: f64) -> bool {
+        self.outside_m(place) <= margin_m && place.z_m <= self.ceiling_m + margin_m
+    }
+
+    /// Horizontal distance outside the fence in metres, negative inside.
+    pub fn outside_m(&self, place: &Pose) -> f64 {
+        self.border.outside_m(across(place))
+    }
+
+    /// Where a straight flight between two places leaves the fence, widened by a margin: the nearest place inside, at least
+    /// `by_m` from the border. `None` if it stays inside, or comes in and stays.
+    pub fn stop_before(&self, from: &Pose, to: &Pose, margin_m: f64, by_m: f64) -> Option<Pose> {
+        let leaves_m = self.border.leaves_at(across(from), across(to), margin_m)?;
+        let [x_m, y_m] = self.border.nearest_inside(leaves_m, by_m).into();
+        Some(Pose { x_m, y_m, z_m: to.z_m.clamp(self.floor_m, self.ceiling_m), ..*to })
     }
 }
+
+/// The horizontal part of a place.
+pub(crate) fn across(place: &Pose) -> Vector2<f64> {
+    Vector2::new(place.x_m, place.y_m)
+}
+
+#[cfg(test)]
+mod tests;

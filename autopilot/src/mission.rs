@@ -77,7 +77,7 @@ impl Mission {
             steps: Vec::new(),
             tags: Vec::new(),
             next: 0,
-            interpreter: Interpreter::new(limits),
+            interpreter: Interpreter::new(&limits),
         }
     }
 
@@ -89,7 +89,7 @@ impl Mission {
         self.steps = plan.into_steps();
         self.next = 0;
         self.interpreter =
-            if airborne { self.interpreter.of_new_plan() } else { Interpreter::new(self.limits) };
+            if airborne { self.interpreter.of_new_plan() } else { Interpreter::new(&self.limits) };
     }
 
     /// Appends commands, before a landing that the plan implies. At rest, where the next flight begins with the
@@ -144,7 +144,7 @@ impl Mission {
     /// Returns to the first step, on the ground.
     pub fn rewind(&mut self) {
         self.next = 0;
-        self.interpreter = Interpreter::new(self.limits);
+        self.interpreter = Interpreter::new(&self.limits);
     }
 
     /// Name of the loaded plan; empty without one.
@@ -353,7 +353,7 @@ mod tests {
     fn what_is_appended_counts_from_where_the_mission_leads() {
         let mut mission = mission("takeoff\ngoto 0 6 0 0\nmoveBy 0 3 0 0");
         let error = append(&mut mission, "moveBy 0 2 0 0", None).unwrap_err();
-        assert!(error.contains("11.00 m away"), "{error}");
+        assert!(error.contains("11.00 m from the start"), "{error}");
         assert_eq!(mission.steps().len(), 4, "nothing has changed");
         append(&mut mission, "moveBy 0 1 0 0", None).unwrap();
         // The same while the first step is being flown.

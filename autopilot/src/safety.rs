@@ -18,7 +18,7 @@ use self::carried::CarriedOff;
 use self::descent::{Cause, Descent, place_upwind};
 pub(crate) use self::stopping::Stopping;
 use crate::agent::AgentCommand;
-use crate::fence::FlightLimits;
+use crate::fence::{FlightLimits, across};
 
 /// Navdata older than this are too old to move by: the drone hovers.
 const STALE: Duration = Duration::from_millis(300);
@@ -26,6 +26,9 @@ const STALE: Duration = Duration::from_millis(300);
 const BLIND: Duration = Duration::from_secs(4);
 /// Distance beyond the fence that is tolerated, because the drone overshoots and its position is not exact.
 const MARGIN_M: f64 = 0.35;
+/// Distance beyond the fence up to which the drone may come to rest, and its way to a target lead. A target on the fence is
+/// flown to with less.
+const BEYOND_M: f64 = 0.15;
 /// Delay before the drone starts to brake.
 const REACTION_S: f64 = 0.5;
 /// Under manual control the drone is stopped this far inside the fence, and manual targets are moved as far
@@ -63,6 +66,8 @@ pub enum Veto {
     Landing,
     /// The target lies outside the fence: fly to the nearest place inside.
     TargetOutside,
+    /// The straight way to the target leads over the fence: stop before it.
+    WayOutside,
     /// Manual control leads the drone too near to the fence: stop inside.
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
@@ -84,6 +89,7 @@ impl Veto {
             Self::Emergency => "Emergency",
             Self::Landing => "Landing",
             Self::TargetOutside => "TargetOutside",
+            Self::WayOutside => "WayOutside",
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
             Self::AgainstWind => "AgainstWind",
@@ -246,7 +252,7 @@ impl SafetyMonitor {
             let veto = self.state.cause().map_or(Veto::Landing, Cause::veto);
             return (AgentCommand::Land, flies.then_some(veto));
         }
-        self.carried_off.see(now, self.fence.radius_m);
+        self.carried_off.see(now, &self.fence.border);
         if flies
             && matches!(self.state, State::Free)
             && let Some(cause) = self.reason_to_land(now)
@@ -261,14 +267,15 @@ impl SafetyMonitor {
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             _ if moves && self.carried_off.leans() => {
-                (AgentCommand::GoTo(place_upwind(&now.pose, &self.fence)), Some(Veto::AgainstWind))
+                (AgentCommand::GoTo(place_upwind(now, &self.fence)), Some(Veto::AgainstWind))
             }
-            AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
-                AgentCommand::GoTo(self.fence.nearest_inside(&target, 0.0)),
-                Some(Veto::TargetOutside),
-            ),
+            AgentCommand::GoTo(target) => self.kept_inside(&target, now),
             AgentCommand::Sticks if !self.stops_inside(now) => {
-                let stop = self.fence.nearest_inside(&stopping_place(&now.stops_from()), INSIDE_M);
+                let end = stopping_place(&now.stops_from());
+                let across_m =
+                    self.fence.border.stop_inside(across(&now.soon.pose), across(&end), INSIDE_M);
+                let stop = Pose { x_m: across_m.x, y_m: across_m.y, ..end };
+                let stop = self.fence.nearest_inside(&stop, 0.0);
                 (AgentCommand::GoTo(stop), Some(Veto::NearFence))
             }
             _ => (command, None),
@@ -321,7 +328,8 @@ impl SafetyMonitor {
     fn reason_to_land(&self, now: &Situation) -> Option<Cause> {
         if now.blind_for > BLIND {
             Some(Cause::Blind)
-        } else if !self.is_inside_above(&now.pose, MARGIN_M) {
+        } else if !self.fence.is_inside_above(&now.pose, MARGIN_M) {
+            // Not below its floor: landing does not correct a height that is too low.
             Some(Cause::OutsideFence)
         } else if self.carried_off.lasts(now.now) {
             Some(Cause::CarriedOff)
@@ -330,20 +338,23 @@ impl SafetyMonitor {
         }
     }
 
-    fn is_inside(&self, pose: &Pose, margin_m: f64) -> bool {
-        pose.z_m >= self.fence.floor_m - margin_m && self.is_inside_above(pose, margin_m)
-    }
-
-    /// Ignores the fence's floor, because landing does not correct a height that is too low.
-    fn is_inside_above(&self, pose: &Pose, margin_m: f64) -> bool {
-        pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m
-            && pose.z_m <= self.fence.ceiling_m + margin_m
+    /// A target inside, or one before the straight way to it leaves the fence.
+    fn kept_inside(&self, target: &Pose, now: &Situation) -> (AgentCommand, Option<Veto>) {
+        let fence = &self.fence;
+        let (inside, veto) = if fence.is_inside(target, FlightLimits::TOLERANCE_M) {
+            (*target, None)
+        } else {
+            (fence.nearest_inside(target, 0.0), Some(Veto::TargetOutside))
+        };
+        match fence.stop_before(&now.pose, &inside, BEYOND_M, INSIDE_M) {
+            Some(stop) => (AgentCommand::GoTo(stop), Some(Veto::WayOutside)),
+            None => (AgentCommand::GoTo(inside), veto),
+        }
     }
 
     fn stops_inside(&self, now: &Situation) -> bool {
         let (here, end) = (now.soon.pose, stopping_place(&now.stops_from()));
-        let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
-        (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
+        self.fence.border.is_stop_inside(across(&here), across(&end), INSIDE_M)
             && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)
             && (end.z_m >= self.fence.floor_m || end.z_m > here.z_m)
     }

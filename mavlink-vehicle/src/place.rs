@@ -10,6 +10,10 @@ use kinematics::{wrap_deg, wrap_rad};
 /// agree with us to the grid of 1e-7°.
 const EARTH_RADIUS_M: f64 = 6_371_000.0;
 
+/// Places on the globe are told to 1.1 cm, in degrees × 1e7: what is no further outside the fence than this, in metres, may have
+/// been rounded. Heights get as much.
+pub(crate) const GRID_M: f64 = 0.012;
+
 /// Coordinate of a place in an integer field that is not given.
 pub(crate) const ABSENT: i32 = i32::MAX;
 

@@ -12,7 +12,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use autopilot::outcome::Outcome;
-use system_tests::sensors::{self, AIRFRAMES, led_astray};
+use system_tests::airframes::AIRFRAMES;
+use system_tests::sensors::{self, led_astray};
 use system_tests::sim::SimulationError;
 use system_tests::{campaign, landings, rules, streams};
 

@@ -25,7 +25,7 @@ const NEAR: f64 = 0.4;
 
 /// Which airframes fly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Fleet {
+pub enum Airframes {
     /// The published ones.
     #[default]
     Published,
@@ -33,7 +33,7 @@ pub enum Fleet {
     Any,
 }
 
-impl Fleet {
+impl Airframes {
     /// The airframe of a flight: the one with this index in [`AIRFRAMES`], or one near it, drawn by the flight's seed.
     pub fn profile(self, airframe: usize, seed: u64) -> Profile {
         let published = (AIRFRAMES[airframe].profile)();

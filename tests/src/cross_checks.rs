@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::outcome::Outcome;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{FlightEvent, SurveyedTag, TagConfig, VehicleConfig};
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -17,12 +17,12 @@ use nalgebra::Vector2;
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use crate::sensors::AIRFRAMES;
+use crate::airframes::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
 use crate::trial::{self, FOR_EVER};
 
 /// Far enough for a drone to get lost in.
-const FENCE: FlightLimits = FlightLimits { radius_m: 30.0, ..trial::FENCE };
+const FENCE: FlightLimits = FlightLimits { border: Border::circle(30.0), ..trial::FENCE };
 /// A velocity becomes wrong by then at the earliest: the drone has seen its tag.
 const EARLIEST: Duration = Duration::from_secs(12);
 /// Steady wind at most, in m/s.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::outcome::Outcome;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{OperatorOrder, VehicleConfig};
 use kinematics::Sticks;
 use mock_drone::airframe::Profile;
@@ -19,12 +19,13 @@ use nalgebra::Vector2;
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use crate::airframes::{AIRFRAMES, Fleet, strongest_wind_m_s};
+use crate::airframes::{AIRFRAMES, Airframes, strongest_wind_m_s};
 use crate::sim::{Simulation, SimulationError};
 use crate::trial::{FENCE, FOR_EVER};
 
-const LIMITS: FlightLimits = FlightLimits { radius_m: 12.0, ceiling_m: 6.0, ..FENCE };
-/// The strongest wind of these days, and its largest share of what the airframe resists.
+const LIMITS: FlightLimits = FlightLimits { border: Border::circle(12.0), ceiling_m: 6.0, ..FENCE };
+/// The strongest wind of these days, and its largest share of what the airframe resists: just so much that each published
+/// one flies in all of these winds.
 const MOST_WIND_M_S: f64 = 0.5;
 const MOST_WIND_SHARE: f64 = 0.62;
 /// A gust hardly ever exceeds this many standard deviations, and none of those the wind that the drone resists.
@@ -76,8 +77,8 @@ struct Prepared {
 ///
 /// # Errors
 /// [`SimulationError`] if it never ends.
-pub fn fly(fleet: Fleet, seed: u64) -> Result<HealthyFlight, SimulationError> {
-    let Prepared { simulation, plan, description, ingredients } = prepared(fleet, seed)?;
+pub fn fly(airframes: Airframes, seed: u64) -> Result<HealthyFlight, SimulationError> {
+    let Prepared { simulation, plan, description, ingredients } = prepared(airframes, seed)?;
     let flight = simulation.fly(plan)?;
     Ok(HealthyFlight {
         description: format!("{:.1} s of {description}", flight.duration.as_secs_f64()),
@@ -87,11 +88,11 @@ pub fn fly(fleet: Fleet, seed: u64) -> Result<HealthyFlight, SimulationError> {
 }
 
 /// The flight of a seed.
-fn prepared(fleet: Fleet, seed: u64) -> Result<Prepared, SimulationError> {
+fn prepared(airframes: Airframes, seed: u64) -> Result<Prepared, SimulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6865_616c);
     let random = &mut random;
     let airframe = random.random_range(0..AIRFRAMES.len());
-    let (profile, airframe) = (fleet.profile(airframe, seed), fleet.name(airframe));
+    let (profile, airframe) = (airframes.profile(airframe, seed), airframes.name(airframe));
     let is_hard = random.random_bool(0.5);
     let sensors = if is_hard { SensorModel::hard() } else { SensorModel::nominal() };
     let link = LinkFaults {
@@ -262,7 +263,7 @@ mod tests {
         const FLIGHTS: u64 = 120;
         let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for seed in 0..FLIGHTS {
-            for ingredient in prepared(Fleet::Published, seed).unwrap().ingredients {
+            for ingredient in prepared(Airframes::Published, seed).unwrap().ingredients {
                 *counts.entry(ingredient).or_default() += 1;
             }
         }
@@ -302,7 +303,7 @@ mod tests {
     fn a_clock_that_wraps_does_so_in_flight() {
         for seed in 0..20 {
             let Prepared { simulation, plan, ingredients, .. } =
-                prepared(Fleet::Published, seed).unwrap();
+                prepared(Airframes::Published, seed).unwrap();
             let (mut last, mut wrapped_s) = (Duration::ZERO, None);
             let flown = simulation.fly_recorded(plan, |record| {
                 let Record::Navdata { at, packet } = record else { return };

@@ -20,6 +20,7 @@ mod lateness;
 mod mavlink;
 mod parting;
 mod plans;
+mod polygon;
 mod ports;
 mod processes;
 mod recording;

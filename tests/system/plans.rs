@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use ardrone_pilot::recording::Record;
 use autopilot::outcome::Outcome;
-use autopilot::plan::{Command, Expectation, FlightLimits, ZOrigin};
+use autopilot::plan::{Border, Command, Expectation, FlightLimits, ZOrigin};
 use autopilot::vehicle::{FlightEvent, Telemetry};
 use autopilot::{Plan, VehicleConfig};
 use kinematics::Pose;
@@ -16,16 +16,15 @@ use system_tests::plan;
 use system_tests::sim::{SimulatedFlight, Simulation};
 
 /// Small, so that flights are short and many targets are at the fence.
-const LIMITS: FlightLimits =
-    FlightLimits { floor_m: 0.3, ceiling_m: 2.0, radius_m: 3.0, z_origin: ZOrigin::Hover };
+const LIMITS: FlightLimits = FlightLimits::new(Border::circle(3.0), 0.3, 2.0);
 const PLANS: u64 = 300;
 /// Largest distance of a hovering or standing drone from its target.
 const HOVER_M: f64 = 0.3;
 
-fn simulation(seed: u64, limits: FlightLimits) -> Simulation {
+fn simulation(seed: u64, limits: &FlightLimits) -> Simulation {
     let drone = DroneConfig { seed, ..DroneConfig::default() };
     let world = WorldConfig { drone, ..WorldConfig::default() };
-    let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
+    let pilot = VehicleConfig { limits: *limits, ..VehicleConfig::default() };
     Simulation { world, pilot, ..Simulation::default() }
 }
 
@@ -262,7 +261,8 @@ fn random_lines(random: &mut ChaCha8Rng, limits: &FlightLimits) -> Vec<String> {
         3 => {
             // At the fence the actual hover height decides whether a target is inside.
             let angle = random.random_range(0.0..std::f64::consts::TAU);
-            let (x_m, y_m) = (limits.radius_m * angle.sin(), limits.radius_m * angle.cos());
+            let radius_m = limits.border.furthest_m();
+            let (x_m, y_m) = (radius_m * angle.sin(), radius_m * angle.cos());
             one(format!("goto {x_m:.3} {y_m:.3} 0 0"))
         }
         4 => {
@@ -295,7 +295,7 @@ fn a_random_plan_is_flown_to_exactly_the_targets_that_check_prints() {
         let z_origin = if seed % 4 == 0 { ZOrigin::Floor } else { ZOrigin::Hover };
         let limits = FlightLimits { z_origin, ..LIMITS };
         let text = random_plan(&mut random, &limits);
-        corrected += fly_and_compare(&simulation(seed, limits), &text);
+        corrected += fly_and_compare(&simulation(seed, &limits), &text);
         lines += &text;
     }
     // Ensures that the generator covers targets outside the fence.

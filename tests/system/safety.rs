@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::outcome::Outcome;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::safety::Veto;
 use autopilot::vehicle::{
     FlightEvent, LandingReason, OperatorOrder, Place, Quantity, Trust, VehicleConfig,
@@ -20,12 +20,7 @@ use system_tests::sim::{Moment, SimulatedFlight, Simulation};
 use system_tests::{SQUARE, campaign, landings, plan, rules};
 
 const SECOND: Duration = Duration::from_secs(1);
-const NEAR: FlightLimits = FlightLimits {
-    radius_m: 4.0,
-    ceiling_m: 3.0,
-    floor_m: 0.3,
-    z_origin: autopilot::plan::ZOrigin::Hover,
-};
+const NEAR: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
 
 #[test]
 fn five_hundred_flights_with_random_faults_end_well() {
@@ -270,7 +265,7 @@ fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (Simulate
     let sensors = SensorModel::hard();
     let drone = DroneConfig { profile, sensors, seed, ..DroneConfig::default() };
     let world = WorldConfig { scenario, drone, ..WorldConfig::default() };
-    let limits = FlightLimits { radius_m: 60.0, ..NEAR };
+    let limits = FlightLimits { border: Border::circle(60.0), ..NEAR };
     let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
     let mut away_m = 0.0;
     let simulation = Simulation { world, pilot, ..Simulation::default() };
@@ -361,7 +356,7 @@ fn a_place_given_by_hand_may_be_outside_or_never_reached() {
     let sent = (8 * SECOND, OperatorOrder::GoTo(Place::at(80.0, 0.0)));
     let fly = |radius_m, settings, orders| {
         let flown = plan(&format!("takeoff\n{settings}goto 0 0 0 0\ngoto 0 1 0 0\nland\n"));
-        let limits = FlightLimits { radius_m, ..NEAR };
+        let limits = FlightLimits { border: Border::circle(radius_m), ..NEAR };
         let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
         let simulation = Simulation { orders, pilot, ..Simulation::default() };
         let mut away_m = 0.0;

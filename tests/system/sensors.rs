@@ -2,7 +2,8 @@
 
 use std::thread;
 
-use system_tests::sensors::{AIRFRAMES, led_astray, random};
+use system_tests::airframes::AIRFRAMES;
+use system_tests::sensors::{led_astray, random};
 
 const SEED: u64 = 1;
 /// Random failures that are flown, and the number of the first, for each of some threads.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{FlightEvent, OperatorOrder, TagConfig, VehicleConfig};
 use mock_drone::scenario::Scenario;
 use mock_drone::sensors::SensorModel;
@@ -57,7 +57,8 @@ fn a_tag_two_metres_away_is_found_and_landed_on() {
 #[test]
 fn a_search_in_vain_ends_in_time_inside_the_fence_and_is_told() {
     let mut simulation = day(1, false, &[], "");
-    simulation.pilot.limits = FlightLimits { radius_m: 1.5, ..FlightLimits::default() };
+    simulation.pilot.limits =
+        FlightLimits { border: Border::circle(1.5), ..FlightLimits::default() };
     let mut farthest_m = 0.0_f64;
     let flight = simulation
         .fly_watched(plan("takeoff\nfindTag\nland\n"), |moment: &Moment| {

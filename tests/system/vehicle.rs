@@ -5,7 +5,7 @@ use std::time::Duration;
 use ardrone_link::at::{Command, Datagram, Ref};
 use ardrone_pilot::drive::{Driver, Passed, Simulated};
 use autopilot::outcome::Outcome;
-use autopilot::plan::{Commands, FlightLimits};
+use autopilot::plan::{Border, Commands, FlightLimits};
 use autopilot::vehicle::{
     FlightEvent, LandingReason, NotReady, Operator, OperatorOrder, Phase, Refused, Station, TICK,
     Telemetry, Transmit,
@@ -444,7 +444,7 @@ fn a_cut_is_refused_where_nothing_may_be_sent() {
 #[test]
 fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
     for number in [100_000, 2_000_000_000] {
-        let limits = FlightLimits { radius_m: 4.0, ..FlightLimits::default() };
+        let limits = FlightLimits { border: Border::circle(4.0), ..FlightLimits::default() };
         let config = VehicleConfig { limits, ..VehicleConfig::default() };
         let mut bench = Bench::with(&config, &WorldConfig::default());
         bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));

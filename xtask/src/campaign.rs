@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::LandingReason;
-use system_tests::airframes::Fleet;
+use system_tests::airframes::Airframes;
 use system_tests::campaign::{Fault, Verdict, fly_of};
 use system_tests::sim::SimulationError;
 
@@ -13,12 +13,12 @@ use crate::parallel;
 
 /// Flies seeds from `first` and returns the report; the second value is whether no fault was found.
 pub(crate) fn run(
-    fleet: Fleet,
+    airframes: Airframes,
     flights: u64,
     first: u64,
 ) -> Result<(String, bool), SimulationError> {
     let seeds: Vec<u64> = (first..first.saturating_add(flights)).collect();
-    let verdicts = parallel::map(&seeds, |seed| fly_of(fleet, seed))?;
+    let verdicts = parallel::map(&seeds, |seed| fly_of(airframes, seed))?;
     let good = verdicts.iter().all(|verdict| verdict.faults.is_empty());
     let text = match verdicts.as_slice() {
         [verdict] => describe(verdict),

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use system_tests::airframes::Fleet;
+use system_tests::airframes::Airframes;
 
 use crate::{
     campaign, compare, cross_checks, fly, healthy, mavlink, mutants, rules, sensors, soak, streams,
@@ -21,9 +21,9 @@ struct Arguments {
     command: Command,
 }
 
-/// Airframes, by the words of the command line.
+/// Which airframes fly, by the words of the command line.
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum Airframes {
+enum AirframesArgument {
     /// The four published ones
     #[default]
     Published,
@@ -31,11 +31,11 @@ enum Airframes {
     Any,
 }
 
-impl From<Airframes> for Fleet {
-    fn from(airframes: Airframes) -> Self {
+impl From<AirframesArgument> for Airframes {
+    fn from(airframes: AirframesArgument) -> Self {
         match airframes {
-            Airframes::Published => Self::Published,
-            Airframes::Any => Self::Any,
+            AirframesArgument::Published => Self::Published,
+            AirframesArgument::Any => Self::Any,
         }
     }
 }
@@ -64,7 +64,7 @@ enum Command {
         first: u64,
         /// Which airframes fly
         #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
-        airframe: Airframes,
+        airframe: AirframesArgument,
     },
     /// Fly healthy drones on links that lose and delay datagrams, above boxes and in gusts, and tell which were landed
     /// without need; fails if more than one in a thousand was
@@ -77,7 +77,7 @@ enum Command {
         first: u64,
         /// Which airframes fly
         #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
-        airframe: Airframes,
+        airframe: AirframesArgument,
     },
     /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
     /// far
@@ -96,7 +96,7 @@ enum Command {
         only: Option<String>,
         /// Which airframes fly
         #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
-        airframe: Airframes,
+        airframe: AirframesArgument,
         /// Write one line for each flight to this file
         #[arg(long, value_name = "FILE")]
         csv: Option<PathBuf>,
@@ -228,7 +228,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Sensors { seeds, random, first, only, airframe, csv } => {
             let randoms = first..first.saturating_add(random);
-            let request = sensors::Request { fleet: airframe.into(), seeds, only, randoms };
+            let request = sensors::Request { airframes: airframe.into(), seeds, only, randoms };
             let report = sensors::run(&request)?;
             if let Some(path) = csv {
                 compare::write(&path, &report.lines)?;

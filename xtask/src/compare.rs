@@ -31,7 +31,7 @@ pub(crate) struct Key {
 }
 
 /// A flight with a failing sensor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Line {
     /// The failure.
     pub(crate) row: String,

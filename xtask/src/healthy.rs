@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use system_tests::airframes::Fleet;
+use system_tests::airframes::Airframes;
 use system_tests::healthy::{HealthyFlight, fly};
 use system_tests::sim::SimulationError;
 
@@ -14,12 +14,12 @@ const ACCEPTED_PER_THOUSAND: u64 = 1;
 
 /// Flies seeds from `first`; the second value is whether few enough were landed without need.
 pub(crate) fn run(
-    fleet: Fleet,
+    airframes: Airframes,
     flights: u64,
     first: u64,
 ) -> Result<(String, bool), SimulationError> {
     let seeds: Vec<u64> = (first..first.saturating_add(flights)).collect();
-    let flown = parallel::map(&seeds, |seed| fly(fleet, seed))?;
+    let flown = parallel::map(&seeds, |seed| fly(airframes, seed))?;
     let landed = flown.iter().filter(|flight| flight.is_landed_without_need()).count() as u64;
     Ok((report(&flown), landed * 1000 <= ACCEPTED_PER_THOUSAND * flights))
 }

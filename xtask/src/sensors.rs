@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use system_tests::airframes::{AIRFRAMES, Fleet};
+use system_tests::airframes::{AIRFRAMES, Airframes};
 use system_tests::sensors::{
     Excursion, Failure, Flown, RandomFlight, Situation, failures, fly, random_of,
 };
@@ -75,7 +75,7 @@ impl Row {
 /// What is flown.
 #[derive(Debug, Clone)]
 pub(crate) struct Request {
-    pub(crate) fleet: Fleet,
+    pub(crate) airframes: Airframes,
     /// Seeds of each failure in each situation on each airframe, from 1.
     pub(crate) seeds: u64,
     /// Of the listed failures only those with this in their name.
@@ -112,7 +112,7 @@ pub(crate) fn run(request: &Request) -> Result<Report, SimulationError> {
 /// Flies random failures and lists those that led too far; those that navdata cannot show are only counted.
 fn fly_random(request: &Request, report: &mut Report) -> Result<(), SimulationError> {
     let numbers: Vec<u64> = request.randoms.clone().collect();
-    let flown = parallel::map(&numbers, |number| random_of(request.fleet, number))?;
+    let flown = parallel::map(&numbers, |number| random_of(request.airframes, number))?;
     let never = flown.iter().filter(|flight| flight.is_none()).count();
     let flown: Vec<RandomFlight> = flown.into_iter().flatten().collect();
     let too_far: Vec<&RandomFlight> = flown.iter().filter(|flight| flight.is_too_far()).collect();
@@ -140,7 +140,7 @@ fn fly_random(request: &Request, report: &mut Report) -> Result<(), SimulationEr
 }
 
 fn fly_listed(request: &Request, report: &mut Report) -> Result<(), SimulationError> {
-    let Request { fleet, seeds, only, .. } = request;
+    let Request { airframes, seeds, only, .. } = request;
     let mut failures = failures();
     failures.retain(|failure| only.as_ref().is_none_or(|only| failure.name.contains(only)));
     let mut jobs = Vec::new();
@@ -150,7 +150,7 @@ fn fly_listed(request: &Request, report: &mut Report) -> Result<(), SimulationEr
         }
     }
     let flown = parallel::map(&jobs, |(seed, airframe, situation)| {
-        fly(fleet.profile(airframe, seed), Situation::ALL[situation], seed, &failures)
+        fly(airframes.profile(airframe, seed), Situation::ALL[situation], seed, &failures)
     })?;
     let mut own = Row::new("(its own hover and landing)");
     let mut rows: Vec<Row> = failures.iter().map(row_of).collect();
@@ -161,7 +161,7 @@ fn fly_listed(request: &Request, report: &mut Report) -> Result<(), SimulationEr
             row.see(&flown.excursion, &siblings.own, *situation, *airframe, *seed);
             report.lines.push(line(
                 failure.name.clone(),
-                fleet.name(*airframe),
+                airframes.name(*airframe),
                 Situation::ALL[*situation],
                 *seed,
                 failure.shows(),

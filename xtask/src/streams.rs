@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use system_tests::sensors::AIRFRAMES;
+use system_tests::airframes::AIRFRAMES;
 use system_tests::sim::SimulationError;
 use system_tests::streams::{Flown, fly};
 

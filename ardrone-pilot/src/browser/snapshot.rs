@@ -134,7 +134,11 @@ impl Snapshot {
             "plan": self.name,
             "notes": self.notes,
             "steps": steps,
-            "radius_m": self.limits.radius_m,
+            "fence": {
+                "text": self.limits.border.to_string(),
+                // To a millimetre: a circle is drawn with many corners.
+                "outline_m": self.limits.border.outline_m().map(rounded).collect::<Vec<_>>(),
+            },
             "floor_m": self.limits.floor_m,
             "ceiling_m": self.limits.ceiling_m,
             "plans": plans,
@@ -147,6 +151,10 @@ impl Snapshot {
             "end": self.end,
         })
     }
+}
+
+fn rounded(place_m: [f64; 2]) -> [f64; 2] {
+    place_m.map(|metres| (metres * 1000.0).round() / 1000.0)
 }
 
 /// A command of the plan language, for the editor.

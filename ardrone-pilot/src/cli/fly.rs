@@ -91,10 +91,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let screen = || Screen::start(&config.limits, warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
-    let keys = Keys::start(controls.clone(), config.limits, prompt);
+    let keys = Keys::start(controls.clone(), &config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
-    } else if let Err(error) = read_orders(arguments, config.limits, controls.clone()) {
+    } else if let Err(error) = read_orders(arguments, &config.limits, controls.clone()) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
     let (steps, truths) = (Vec::new(), Vec::new());
@@ -169,7 +169,7 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
 }
 
 /// Reads orders from standard input if no keys are read from it.
-fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std::io::Result<()> {
+fn read_orders(arguments: &Fly, limits: &FlightLimits, controls: Controls) -> std::io::Result<()> {
     let lines = match (arguments.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,

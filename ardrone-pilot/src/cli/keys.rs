@@ -96,7 +96,7 @@ impl Keys {
     /// Starts reading keys for a flight, if standard input is a terminal.
     pub(super) fn start(
         controls: Controls,
-        limits: FlightLimits,
+        limits: &FlightLimits,
         line: PromptLine,
     ) -> Option<Self> {
         if !stdin().is_terminal() {
@@ -111,7 +111,7 @@ impl Keys {
         tcsetattr(stdin(), OptionalActions::Now, &one_by_one).ok()?;
         let ended = Arc::new(AtomicBool::new(false));
         let thread = {
-            let ended = Arc::clone(&ended);
+            let (ended, limits) = (Arc::clone(&ended), *limits);
             std::thread::Builder::new()
                 .name("keys".to_owned())
                 .spawn(move || read_keys(&controls, &limits, line, &ended))

@@ -54,10 +54,10 @@ const OVERTAKEN: &str = "a landing, a cut or the end was ordered behind it";
 pub(super) fn read_orders(
     lines: Lines,
     at_end: AtEnd,
-    limits: FlightLimits,
+    limits: &FlightLimits,
     controls: Controls,
 ) -> std::io::Result<()> {
-    let vehicle = controls.vehicle();
+    let (vehicle, limits) = (controls.vehicle(), *limits);
     let desk = Desk { controls, landings: Arc::default() };
     let (waiting, orders) = bounded(WAITING);
     let (answering, answers) = unbounded::<(Caller, Receiver<Result<(), Refused>>)>();

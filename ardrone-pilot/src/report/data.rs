@@ -184,13 +184,7 @@ impl Decision {
 
 /// The commands of a plan, numbered like the mission's steps.
 fn steps(plan: &str) -> Vec<String> {
-    let limits = autopilot::plan::FlightLimits {
-        floor_m: f64::NEG_INFINITY,
-        ceiling_m: f64::INFINITY,
-        radius_m: f64::INFINITY,
-        ..autopilot::plan::FlightLimits::default()
-    };
-    let (plan, _) = autopilot::plan::Plan::review(plan, &limits);
+    let (plan, _) = autopilot::plan::Plan::review(plan, &autopilot::plan::FlightLimits::NONE);
     plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| label(&step.text)).collect())
 }
 

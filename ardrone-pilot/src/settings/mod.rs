@@ -3,6 +3,7 @@
 //! [`Settings::sample`] documents every setting. Missing settings keep their defaults; a file with an invalid
 //! one is refused as a whole, with all reasons.
 
+mod fence;
 mod section;
 mod sections;
 mod tags;
@@ -11,10 +12,9 @@ use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use serde::{Deserialize, Serialize};
 
+use self::fence::Fence;
 use self::section::{Comments, Section};
-use self::sections::{
-    Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Vehicle, Video,
-};
+use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Station, Vehicle, Video};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
 

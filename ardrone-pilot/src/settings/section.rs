@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 ///
 /// ```text
 /// section! {
-///     struct Fence("fence") of VehicleConfig {
-///         /// Lowest and highest target. Metres above the floor.
-///         floor_m: f64 = [limits.floor_m] in 0.1..=3.0,
+///     struct Drone("drone") of VehicleConfig {
+///         /// Full stick commands this. m/s.
+///         climb_max_m_s: f64 = [estimator.limits.climb_m_s] in 0.2..=2.0,
 ///     }
 /// }
 /// ```
 ///
-/// `[limits.floor_m]` is the value's place in the [`VehicleConfig`](autopilot::vehicle::VehicleConfig), whose
+/// `[estimator.limits.climb_m_s]` is the value's place in the [`VehicleConfig`](autopilot::vehicle::VehicleConfig), whose
 /// default is the setting's default, too; a value without a place there has `[default …]`. The documentation
 /// is the comment in the default `pilot.toml`. A value without one is documented with the one before it.
 macro_rules! section {

@@ -20,17 +20,6 @@ section! {
 }
 
 section! {
-    #[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
-    struct Fence("fence") of VehicleConfig {
-        /// Lowest and highest target. Metres above the floor.
-        floor_m: f64 = [limits.floor_m] in 0.1..=3.0,
-        ceiling_m: f64 = [limits.ceiling_m] in 0.5..=100.0,
-        /// Largest horizontal distance of a target from the start. Metres.
-        radius_m: f64 = [limits.radius_m] in 0.5..=200.0,
-    }
-}
-
-section! {
     struct Drone("drone") of VehicleConfig {
         /// Limits sent to the drone before each flight; full sticks command these values. Degrees; m/s; degrees/s.
         tilt_max_deg: Degrees = [estimator.limits.tilt_rad] in 1.0..=25.0,

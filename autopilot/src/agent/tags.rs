@@ -38,23 +38,18 @@ pub(super) fn place_to_look_from(wanted: &Pose, fence: &FlightLimits) -> Pose {
     Pose { z_m: inside.z_m.min(highest_m), ..inside }
 }
 
-/// Horizontal distance to the fence in metres, negative outside.
-pub(super) fn room_m(pose: &Pose, fence: &FlightLimits) -> f64 {
-    fence.radius_m - pose.x_m.hypot(pose.y_m)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fence::Border;
 
     #[test]
     fn places_to_look_from_are_well_inside_the_fence() {
-        let fence = FlightLimits { radius_m: 2.0, ceiling_m: 2.0, ..FlightLimits::default() };
+        let fence = FlightLimits::new(Border::circle(2.0), 0.3, 2.0);
         let wanted = Pose { x_m: 3.0, y_m: -4.0, z_m: 2.5, yaw_deg: 7.0 };
         let place = place_to_look_from(&wanted, &fence);
-        assert!((room_m(&place, &fence) - INSIDE_M).abs() < 1e-9);
+        assert!((fence.outside_m(&place) + INSIDE_M).abs() < 1e-9);
         assert!((place.z_m - 1.8).abs() < 1e-9 && (place.yaw_deg - 7.0).abs() < 1e-9);
-        assert!(room_m(&wanted, &fence) < 0.0);
         let near = Pose { x_m: 0.5, z_m: 1.0, ..Pose::default() };
         assert_eq!(place_to_look_from(&near, &fence), near);
     }

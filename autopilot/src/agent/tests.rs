@@ -6,7 +6,7 @@ mod station;
 mod tags;
 
 use super::*;
-use crate::fence::ZOrigin;
+use crate::fence::Border;
 
 const GROUND: Percepts = Percepts {
     now_ms: 0,
@@ -23,7 +23,7 @@ const GROUND: Percepts = Percepts {
     station: StationPercepts { silent_for_ms: 0, hold_after_ms: 10_000, land_after_ms: 20_000 },
     settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
     speed_m_s: 0.0,
-    fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },
+    fence: FlightLimits::new(Border::circle(10.0), 0.3, 3.0),
     tags: None,
 };
 const HOVERING: Percepts = Percepts { on_ground: false, hovering: true, ..GROUND };

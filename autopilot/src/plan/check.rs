@@ -7,7 +7,7 @@ use super::Command;
 use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;
 use super::parser::Line;
-use crate::fence::{FlightLimits, ZOrigin};
+use crate::fence::{FlightLimits, ZOrigin, across};
 
 /// Checks the whole plan in a dry run: order of commands and places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
@@ -51,7 +51,7 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn step(&mut self, command: Command, span: &Span) {
-        let was_airborne = self.run.is_airborne();
+        let (from, was_airborne) = (self.run.place(), self.run.is_airborne());
         let order = self.run.step(command);
         let flies = matches!(
             order,
@@ -65,21 +65,33 @@ impl Check<'_> {
         }
         if let Some(AgentOrder::GoTo(target)) = order {
             self.target(&target.wanted, span);
+            self.way(&from, &target.pose, span);
+        }
+    }
+
+    /// A straight flight between two places inside a fence that is not convex may leave it.
+    fn way(&mut self, from: &Pose, to: &Pose, span: &Span) {
+        let tolerance_m = FlightLimits::TOLERANCE_M;
+        if let Some(stop) = self.limits.stop_before(from, to, tolerance_m, 0.0) {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    format!(
+                        "the straight way to this target leaves the fence at {:.2} {:.2}",
+                        stop.x_m, stop.y_m
+                    ),
+                    span.clone(),
+                )
+                .help("put a target before it, from which the way stays inside"),
+            );
         }
     }
 
     fn target(&mut self, target: &Pose, span: &Span) {
-        let away_m = target.x_m.hypot(target.y_m);
-        if away_m > self.limits.radius_m + FlightLimits::TOLERANCE_M {
+        if self.limits.outside_m(target) > FlightLimits::TOLERANCE_M {
+            let how = self.limits.border.how_far(across(target));
             self.diagnostics.push(
-                Diagnostic::error(
-                    format!(
-                        "target {away_m:.2} m away from the start, beyond the fence of {} m",
-                        self.limits.radius_m
-                    ),
-                    span.clone(),
-                )
-                .help("the fence is `fence.radius_m` of the settings"),
+                Diagnostic::error(format!("target {how}"), span.clone())
+                    .help("the fence is `[fence]` of the settings"),
             );
         }
         let height_m = target.z_m;

@@ -19,7 +19,7 @@ pub(crate) struct DryRun {
 
 impl DryRun {
     pub(crate) fn new(limits: &FlightLimits) -> Self {
-        let interpreter = Interpreter::new(*limits);
+        let interpreter = Interpreter::new(limits);
         Self { interpreter, place: Pose::default(), airborne: false, tags_m: Vec::new() }
     }
 

@@ -71,9 +71,9 @@ enum Reference {
 
 impl Interpreter {
     /// State at the beginning of a plan, on the ground.
-    pub(crate) fn new(limits: FlightLimits) -> Self {
+    pub(crate) fn new(limits: &FlightLimits) -> Self {
         Self {
-            limits,
+            limits: *limits,
             origin: None,
             reference: Reference::FromOrigin(Pose::default()),
             target: Pose::default(),
@@ -117,7 +117,7 @@ impl Interpreter {
 
     /// State for a new plan in the same flight: the origin stays, reference and settings are reset.
     pub(crate) fn of_new_plan(&self) -> Self {
-        Self { origin: self.origin, target: self.target, ..Self::new(self.limits) }
+        Self { origin: self.origin, target: self.target, ..Self::new(&self.limits) }
     }
 
     /// A take-off has ended at `pose`, which is held. The first one sets the origin.
@@ -198,8 +198,8 @@ mod tests {
     const SECOND_HOVER: Pose = Pose { x_m: 0.4, y_m: 1.2, z_m: 0.9, yaw_deg: -3.0 };
 
     /// The last target of a plan, flown by an ideal drone.
-    fn last_target(text: &str, limits: FlightLimits) -> Target {
-        let plan = Plan::parse_within("plan", text, &limits).unwrap();
+    fn last_target(text: &str, limits: &FlightLimits) -> Target {
+        let plan = Plan::parse_within("plan", text, limits).unwrap();
         let mut interpreter = Interpreter::new(limits);
         let mut hovers = [FIRST_HOVER, SECOND_HOVER].into_iter();
         let (mut pose, mut last) = (Pose::default(), None);
@@ -222,7 +222,7 @@ mod tests {
 
     #[track_caller]
     fn assert_target(plan: &str, expected: [f64; 4]) {
-        let target = last_target(&format!("{plan}\nland"), FlightLimits::default());
+        let target = last_target(&format!("{plan}\nland"), &FlightLimits::default());
         assert!(!target.is_corrected());
         let Pose { x_m, y_m, z_m, yaw_deg } = target.pose;
         for (value, expected) in [x_m, y_m, z_m, yaw_deg].into_iter().zip(expected) {
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_hold_stays_at_the_last_target_for_its_own_time() {
-        let mut interpreter = Interpreter::new(FlightLimits::default());
+        let mut interpreter = Interpreter::new(&FlightLimits::default());
         interpreter.take_off_ended(&FIRST_HOVER);
         interpreter.carry_out(Command::SetStayTime { time_s: 0.5 }, &FIRST_HOVER);
         let by = Pose { x_m: 1.0, ..Pose::default() };
@@ -283,20 +283,20 @@ mod tests {
     #[test]
     fn heights_count_from_the_floor_if_asked() {
         let limits = FlightLimits { z_origin: ZOrigin::Floor, ..FlightLimits::default() };
-        let target = last_target("takeoff\ngoto 0 0 1.2 0\nland", limits);
+        let target = last_target("takeoff\ngoto 0 0 1.2 0\nland", &limits);
         assert!((target.pose.z_m - 1.2).abs() < 1e-9);
     }
 
     #[test]
     fn a_target_outside_is_moved_into_the_fence_and_the_next_counts_from_there() {
         // Inside at the expected hover height of 0.85 m; this drone hovers 5 cm lower.
-        let low = last_target("takeoff\ngoto 0 0 -0.54 0\nland", FlightLimits::default());
+        let low = last_target("takeoff\ngoto 0 0 -0.54 0\nland", &FlightLimits::default());
         assert!(low.is_corrected());
         assert!((low.wanted.z_m - 0.26).abs() < 1e-9 && (low.pose.z_m - 0.3).abs() < 1e-9);
         assert_target("takeoff\ngoto 0 0 -0.54 0\nmoveBy 0 0 0.1 0", [0.1, -0.1, 0.4, 2.0]);
         // A target on the fence is not moved again because of rounding.
         let on_it =
-            last_target("takeoff\ngoto 7 7.08 0 0\nmoveBy 0 0 0 0", FlightLimits::default());
+            last_target("takeoff\ngoto 7 7.08 0 0\nmoveBy 0 0 0 0", &FlightLimits::default());
         assert!(!on_it.is_corrected(), "{on_it:?}");
     }
 
@@ -315,14 +315,14 @@ mod tests {
             let (lines, _) = parser::parse(example);
             let Some(command) = lines[0].command else { continue };
             let order =
-                Interpreter::new(FlightLimits::default()).carry_out(command, &Pose::default());
+                Interpreter::new(&FlightLimits::default()).carry_out(command, &Pose::default());
             assert_eq!(command.is_setting(), order.is_none(), "{example}");
         }
     }
 
     #[test]
     fn settings_hold_from_their_command_on() {
-        let mut interpreter = Interpreter::new(FlightLimits::default());
+        let mut interpreter = Interpreter::new(&FlightLimits::default());
         assert_eq!(interpreter.settings(), ApproachSettings::default());
         for command in [
             Command::SetReachDistance { distance_m: 0.1 },

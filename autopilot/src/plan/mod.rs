@@ -25,7 +25,7 @@ use diagnostic::{Diagnostic, Severity};
 use estimator::SurveyedTag;
 use kinematics::Pose;
 
-pub use crate::fence::{FlightLimits, ZOrigin};
+pub use crate::fence::{Border, BorderError, FlightLimits, MAX_CORNERS, Shape, ZOrigin};
 pub use commands::Commands;
 pub(crate) use dry_run::DryRun;
 pub(crate) use expectation::expected_time;

@@ -50,9 +50,8 @@ pub fn given_tag_warnings(given: &[SurveyedTag], limits: &FlightLimits) -> Vec<S
 
 /// How far a tag is, if it is beyond the fence.
 fn beyond_fence(tag: &SurveyedTag, limits: &FlightLimits) -> Option<String> {
-    let (away_m, radius_m) = (tag.place_m.norm(), limits.radius_m);
-    let text = format!("{away_m:.2} m from the start, beyond the fence of {radius_m} m");
-    (away_m > radius_m).then_some(text)
+    let border = &limits.border;
+    (border.outside_m(tag.place_m) > 0.0).then(|| border.how_far(tag.place_m))
 }
 
 /// All errors and warnings about tags in these lines.
@@ -134,11 +133,10 @@ impl Review<'_> {
     }
 
     fn search(&mut self, from_m: Vector2<f64>, span: &Span) {
-        let corner_m = from_m.abs().add_scalar(LOOK_AROUND_M).norm();
-        if corner_m > self.limits.radius_m - INSIDE_M {
-            let message = format!(
-                "a search for a tag here would lead {corner_m:.1} m from the start, over the fence"
-            );
+        let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]];
+        let leads = |corner: [f64; 2]| from_m + Vector2::from(corner) * LOOK_AROUND_M;
+        if corners.into_iter().any(|c| self.limits.border.outside_m(leads(c)) > -INSIDE_M) {
+            let message = "a search for a tag here would lead over the fence".to_owned();
             self.warn(message, span, "it stays half a metre inside, and sees less");
         }
     }
@@ -275,7 +273,7 @@ mod tests {
                 "takeoff\ngoto 0 8 0 0\nfindTag\nland",
                 TagUse::Unknown,
                 3,
-                "a search for a tag here would lead 9.5 m from the start, over the fence",
+                "a search for a tag here would lead over the fence",
             ),
         ] {
             let findings = found(text, tags);

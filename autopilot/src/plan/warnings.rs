@@ -89,8 +89,7 @@ impl Review<'_> {
                 "the drone will hardly move: make `setInitialReachDist` smaller",
             );
         }
-        let away_m = target.x_m.hypot(target.y_m);
-        let to_fence_m = (self.limits.radius_m - away_m).max(0.0);
+        let to_fence_m = (-self.limits.outside_m(target)).max(0.0);
         if to_fence_m < NEAR_FENCE_M {
             self.warn(
                 format!("the target is {to_fence_m:.2} m from the fence"),

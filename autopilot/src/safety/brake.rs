@@ -6,31 +6,41 @@ use kinematics::{Airframe, Sticks, body_from_world};
 use nalgebra::Vector2;
 
 use super::stopping::Stopping;
-use super::{Motion, Situation};
-use crate::fence::FlightLimits;
+use super::{BEYOND_M, Motion, Situation};
+use crate::fence::{FlightLimits, across};
 
-/// Distance beyond the fence up to which the drone may come to rest. A target on the fence is flown to with less.
-const BEYOND_M: f64 = 0.15;
 /// The sticks go from full outward to full inward while the way to rest ends further out by this.
 const BAND_M: f64 = 0.2;
+/// Two walls whose directions have a smaller product are two: the drone is braked at both.
+const ELSEWHERE: f64 = 0.7;
 /// Braking that is left in any wind, as a fraction of full tilt: in more of it the storm rules decide.
 const LEAST_BRAKING: f64 = 0.2;
 
 /// What is left of the sticks in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Brake {
-    /// Where the drone would leave the fence: a unit vector to the right and forward of the drone.
-    outward: Vector2<f64>,
-    /// Largest stick in this direction.
-    most: f64,
+    /// Where the drone would leave the fence: the wall that it would pass by most, and one in another direction, as in a
+    /// corner.
+    walls: [Limit; 2],
     /// Smallest and largest gaz.
     least_gaz: f64,
     most_gaz: f64,
 }
 
+/// The largest stick in a direction: a unit vector to the right and forward of the drone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Limit {
+    outward: Vector2<f64>,
+    most: f64,
+}
+
+impl Limit {
+    const NONE: Self = Self { outward: Vector2::new(0.0, 0.0), most: 1.0 };
+}
+
 impl Default for Brake {
     fn default() -> Self {
-        Self { outward: Vector2::zeros(), most: 1.0, least_gaz: -1.0, most_gaz: 1.0 }
+        Self { walls: [Limit::NONE; 2], least_gaz: -1.0, most_gaz: 1.0 }
     }
 }
 
@@ -45,9 +55,18 @@ impl Brake {
         let braking_m_s2 =
             now.full_tilt_m_s2 * tilted.max(LEAST_BRAKING) + now.drag_1_s * speed_m_s / 2.0;
         let stopping = Stopping { delay_s: now.tilts_after_s, braking_m_s2 };
-        let stop_m = Vector2::new(pose.x_m, pose.y_m) + along * stopping.way_m(speed_m_s);
-        let outward = stop_m / stop_m.norm().max(f64::EPSILON);
-        let leaves = velocity_m_s.dot(&outward) > 0.0;
+        let stop_m = across(&pose) + along * stopping.way_m(speed_m_s);
+        let limits = fence
+            .border
+            .passed(across(&pose), stop_m, BEYOND_M)
+            .filter(|wall| velocity_m_s.dot(&wall.outward) > 0.0)
+            .map(|wall| Limit { outward: wall.outward, most: left(-wall.distance_m - BEYOND_M) });
+        let strictest = |a: Limit, b: Limit| if b.most < a.most { b } else { a };
+        let first = limits.clone().fold(Limit::NONE, strictest);
+        let is_other = |limit: &Limit| limit.outward.dot(&first.outward) < ELSEWHERE;
+        let walls = [first, limits.filter(is_other).fold(Limit::NONE, strictest)];
+        let to_body =
+            |limit: Limit| Limit { outward: body_from_world(limit.outward, pose.yaw_deg), ..limit };
         // One that sinks faster than it was identified will do so.
         let sinks_m_s = gaz.min(0.0) * Airframe::STRONGEST_DROP * now.climb_m_s;
         let up_m_s = if up_m_s < 0.0 { up_m_s.min(sinks_m_s) } else { up_m_s };
@@ -65,8 +84,7 @@ impl Brake {
         };
         let stop_z_m = pose.z_m + stopping.way_m(up_m_s);
         Self {
-            outward: body_from_world(outward, pose.yaw_deg),
-            most: if leaves { left(stop_m.norm() - fence.radius_m - BEYOND_M) } else { 1.0 },
+            walls: walls.map(to_body),
             // Not far below the floor of the fence is the room's.
             least_gaz: if up_m_s < 0.0 { -left(2.0 * (fence.floor_m - stop_z_m)) } else { -1.0 },
             most_gaz: if up_m_s > 0.0 { left(stop_z_m - fence.ceiling_m - BEYOND_M) } else { 1.0 },
@@ -75,10 +93,13 @@ impl Brake {
 
     /// The sticks that are left of these.
     pub(super) fn leave(&self, sticks: &Sticks) -> Sticks {
-        let tilt = Vector2::new(sticks.roll, -sticks.pitch);
-        let excess = tilt.dot(&self.outward) - self.most;
-        let tilt =
-            if self.most < 1.0 && excess > 0.0 { tilt - self.outward * excess } else { tilt };
+        let mut tilt = Vector2::new(sticks.roll, -sticks.pitch);
+        for Limit { outward, most } in self.walls {
+            let excess = tilt.dot(&outward) - most;
+            if most < 1.0 && excess > 0.0 {
+                tilt -= outward * excess;
+            }
+        }
         let gaz = sticks.gaz.min(self.most_gaz).max(self.least_gaz);
         Sticks { roll: tilt.x, pitch: -tilt.y, gaz, ..*sticks }
     }
@@ -94,11 +115,10 @@ mod tests {
     use kinematics::Pose;
 
     use super::*;
-    use crate::fence::ZOrigin;
+    use crate::fence::Border;
     use crate::safety::tests::FINE;
 
-    const FENCE: FlightLimits =
-        FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Floor };
+    const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
 
     /// What is left of full sticks to the right and up, in a fence of 4 m, 3 m high.
     fn left_of_full(x_m: f64, velocity_m_s: [f64; 3], yaw_deg: f64) -> Sticks {
@@ -118,6 +138,36 @@ mod tests {
         // It looks outward: what it must not tilt by is its pitch.
         let sideways = left_of_full(3.2, [2.0, 0.0, 0.0], 90.0);
         assert!((sideways.roll - 1.0).abs() < 1e-9 && sideways.pitch > 0.9, "{sideways:?}");
+    }
+
+    const L: [[f64; 2]; 6] =
+        [[-4.0, -4.0], [1.0, -4.0], [1.0, 1.0], [4.0, 1.0], [4.0, 4.0], [-4.0, 4.0]];
+
+    /// What is left of full sticks to the right and forward of a drone in an L, as (right, forward).
+    fn left_in_an_l([x_m, y_m]: [f64; 2], [right_m_s, forward_m_s]: [f64; 2]) -> [f64; 2] {
+        let fence = FlightLimits::new(Border::polygon(&L).unwrap(), 0.3, 3.0);
+        let pose = Pose { x_m, y_m, ..FINE.pose };
+        let velocity_m_s = [right_m_s, forward_m_s, 0.0];
+        let now = Situation { soon: Motion { pose, velocity_m_s }, ..FINE };
+        let sticks = Sticks { roll: 1.0, pitch: -1.0, ..Sticks::default() };
+        let left = Brake::of(&now, 0.0, &fence).leave(&sticks);
+        [left.roll, -left.pitch]
+    }
+
+    #[test]
+    fn in_a_corner_both_sides_are_braked_at() {
+        let [right, forward] = left_in_an_l([3.2, 3.2], [2.0, 2.0]);
+        assert!((right + 1.0).abs() < 1e-9 && (forward + 1.0).abs() < 1e-9, "{right} {forward}");
+        let [right, forward] = left_in_an_l([3.2, 2.0], [2.0, 0.1]);
+        assert!((right + 1.0).abs() < 1e-9 && (forward - 1.0).abs() < 1e-9, "{right} {forward}");
+    }
+
+    #[test]
+    fn a_side_brakes_a_drone_that_would_pass_it_and_not_one_that_flies_by() {
+        // From 2 m/s it stops within 1.31 m: beyond the side at x = 1 m, though the other leg is there.
+        assert!(left_in_an_l([0.5, 0.5], [2.0, 0.0])[0] < -0.99);
+        assert!((left_in_an_l([0.5, 1.5], [2.0, 0.0])[0] - 1.0).abs() < 1e-9, "past the corner");
+        assert!((left_in_an_l([0.9, -1.0], [0.0, 2.0])[0] - 1.0).abs() < 1e-9, "along it");
     }
 
     #[test]

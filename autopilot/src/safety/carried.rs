@@ -5,9 +5,8 @@
 
 use std::time::Duration;
 
-use kinematics::Pose;
-
 use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation, Stopping};
+use crate::fence::{Border, across};
 
 /// Speed up to which a drone counts as holding its position, in m/s.
 const SLOW_M_S: f64 = 0.3;
@@ -38,15 +37,15 @@ pub(super) struct CarriedOff {
 }
 
 impl CarriedOff {
-    /// Handles the motion of one tick in a fence of this radius.
-    pub(super) fn see(&mut self, now: &Situation, radius_m: f64) {
+    /// Handles the motion of one tick within this border.
+    pub(super) fn see(&mut self, now: &Situation, border: &Border) {
         let motion = Motion::of(now);
         let away_m_s = motion.speed_m_s;
         if now.blind_for > super::STALE {
             *self = Self::default();
             return;
         }
-        if motion.stops(now, radius_m) {
+        if motion.stops(now, border) {
             let stops_since = *self.stops_since.get_or_insert(now.now);
             if now.now.saturating_sub(stops_since) >= LULL {
                 *self = Self::default();
@@ -57,7 +56,7 @@ impl CarriedOff {
         if self.since.is_none() {
             *self = Self { since: Some(now.now), ..Self::default() };
         }
-        self.near_fence = motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
+        self.near_fence = motion.room_m(now, border, 0.0) <= motion.speed_m_s * SOON_S;
         self.was_near |= self.near_fence;
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
@@ -103,22 +102,19 @@ impl Motion {
     }
 
     /// Whether no storm keeps the drone from coming to rest inside the fence at full tilt against its motion.
-    fn stops(&self, now: &Situation, radius_m: f64) -> bool {
+    fn stops(&self, now: &Situation, border: &Border) -> bool {
         // The disturbance refers to a drone at rest; one that moves with the wind experiences less of it.
         let dragged_m_s2 = now.drag_1_s * self.speed_m_s / 2.0;
         let braking_m_s2 = now.full_tilt_m_s2 * (1.0 - self.along(now.wind)) + dragged_m_s2;
         let way_m = Stopping { delay_s: REACTION_S, braking_m_s2 }.way_m(self.speed_m_s);
         self.speed_m_s <= SLOW_M_S
             || self.along(now.wind) < STORM
-            || braking_m_s2 > 0.0 && way_m <= self.room_m(now, radius_m + MARGIN_M)
+            || braking_m_s2 > 0.0 && way_m <= self.room_m(now, border, MARGIN_M)
     }
 
-    /// Distance in the direction of motion until the drone is this far from the fence's centre.
-    fn room_m(&self, now: &Situation, radius_m: f64) -> f64 {
-        let Pose { x_m, y_m, .. } = now.pose;
-        let passed_m = self.along([x_m, y_m]);
-        let aside_m = self.heading[0] * y_m - self.heading[1] * x_m;
-        (radius_m * radius_m - aside_m * aside_m).max(0.0).sqrt() - passed_m
+    /// Distance in the direction of motion until the drone is this far outside.
+    fn room_m(&self, now: &Situation, border: &Border, beyond_m: f64) -> f64 {
+        border.room_m(across(&now.pose), self.heading.into(), beyond_m)
     }
 
     /// The component in the direction of motion.
@@ -129,10 +125,13 @@ impl Motion {
 
 #[cfg(test)]
 mod tests {
+    use kinematics::Pose;
+
     use super::*;
     use crate::safety::tests::FINE;
 
     const RADIUS_M: f64 = 10.0;
+    const ROUND: Border = Border::circle(RADIUS_M);
     const TO_THE_REAR: [f64; 2] = [0.0, -1.1];
 
     /// Time until a drone is carried off that is 3 m inside its fence and moves backward at the given speed.
@@ -145,7 +144,7 @@ mod tests {
             let mut now = change(Situation { now: FINE.now + *time, ..FINE });
             now.pose.y_m = 3.0 - RADIUS_M;
             now.velocity_m_s = [0.0, -away_m_s(time.as_secs_f64()), 0.0];
-            carried.see(&now, RADIUS_M);
+            carried.see(&now, &ROUND);
             carried.lasts(now.now)
         })
     }
@@ -184,16 +183,16 @@ mod tests {
         // Seen from the fence's centre, the drone moves neither outward nor inward.
         let pose = Pose { x_m: 6.0, ..FINE.pose };
         let now = Situation { pose, velocity_m_s: [0.0, -3.0, 0.0], ..FINE };
-        let room_m = Motion::of(&now).room_m(&now, RADIUS_M);
+        let room_m = Motion::of(&now).room_m(&now, &ROUND, 0.0);
         assert!((room_m - 8.0).abs() < 1e-9, "{room_m}");
         let pose_aside = Pose { x_m: 6.0, y_m: 2.0, ..FINE.pose };
         let aside = Situation { pose: pose_aside, velocity_m_s: [3.0, 3.0, 0.0], ..now };
-        let room_m = Motion::of(&aside).room_m(&aside, RADIUS_M);
+        let room_m = Motion::of(&aside).room_m(&aside, &ROUND, 0.0);
         assert!((room_m - (92.0_f64.sqrt() - 32.0_f64.sqrt())).abs() < 1e-9, "{room_m}");
         let back = Situation { velocity_m_s: [-3.0, 0.0, 0.0], ..now };
-        assert!((Motion::of(&back).room_m(&back, RADIUS_M) - 16.0).abs() < 1e-9);
+        assert!((Motion::of(&back).room_m(&back, &ROUND, 0.0) - 16.0).abs() < 1e-9);
         let outside = Situation { pose: Pose { x_m: 11.0, ..pose }, ..now };
-        assert!(Motion::of(&outside).room_m(&outside, RADIUS_M) <= 0.0);
+        assert!(Motion::of(&outside).room_m(&outside, &ROUND, 0.0) <= 0.0);
     }
 
     #[test]
@@ -201,7 +200,7 @@ mod tests {
         let see = |wind, velocity_m_s| {
             let mut carried = CarriedOff::default();
             let pose = Pose { y_m: 1.0 - RADIUS_M, ..FINE.pose };
-            carried.see(&Situation { pose, velocity_m_s, wind, ..FINE }, RADIUS_M);
+            carried.see(&Situation { pose, velocity_m_s, wind, ..FINE }, &ROUND);
             (carried.since().is_some(), carried.leans())
         };
         let backward = [0.0, -2.0, 0.0];
@@ -219,7 +218,7 @@ mod tests {
             let pose = Pose { y_m: room_m - RADIUS_M - MARGIN_M, ..FINE.pose };
             let velocity_m_s = [0.0, -3.0, 0.0];
             let now = Situation { pose, velocity_m_s, wind: [0.0, -wind], ..FINE };
-            Motion::of(&now).stops(&now, RADIUS_M)
+            Motion::of(&now).stops(&now, &ROUND)
         };
         assert!(stops(7.94, 0.8));
         assert!(!stops(7.92, 0.8));
@@ -233,7 +232,7 @@ mod tests {
             let mut carried = CarriedOff::default();
             let pose = Pose { y_m: room_m - RADIUS_M, ..FINE.pose };
             let now = Situation { pose, velocity_m_s: [0.0, -0.5, 0.0], wind: TO_THE_REAR, ..FINE };
-            carried.see(&now, RADIUS_M);
+            carried.see(&now, &ROUND);
             carried.leans()
         };
         assert!(leans(0.5 * SOON_S - 0.1));
@@ -265,12 +264,12 @@ mod tests {
             let pose = Pose { y_m: 3.0 - RADIUS_M, ..FINE.pose };
             let blows =
                 Situation { pose, velocity_m_s: [0.0, -1.0, 0.0], wind: TO_THE_REAR, ..FINE };
-            carried.see(&blows, RADIUS_M);
-            carried.see(&Situation { wind: [0.0; 2], ..blows }, RADIUS_M);
+            carried.see(&blows, &ROUND);
+            carried.see(&Situation { wind: [0.0; 2], ..blows }, &ROUND);
             assert!(!carried.lasts(FINE.now + GUST), "it can brake");
             let later = Situation { now: FINE.now + lull, ..blows };
-            carried.see(&Situation { wind: [0.0; 2], ..later }, RADIUS_M);
-            carried.see(&later, RADIUS_M);
+            carried.see(&Situation { wind: [0.0; 2], ..later }, &ROUND);
+            carried.see(&later, &ROUND);
             carried.since()
         };
         assert_eq!(since_after_a_lull_of(LULL / 2), Some(FINE.now));

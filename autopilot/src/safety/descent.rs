@@ -6,10 +6,11 @@
 use std::time::Duration;
 
 use kinematics::Pose;
+use nalgebra::Vector2;
 
 use super::{BRAKES, BRAKES_M_S, GUST, INSIDE_M, STALE, Situation, Veto};
 use crate::agent::AgentCommand;
-use crate::fence::FlightLimits;
+use crate::fence::{FlightLimits, across};
 
 /// Height above the fence's floor to which a drone that has left the fence is flown down before it lands.
 pub(super) const LOW_M: f64 = 0.15;
@@ -79,20 +80,20 @@ impl Descent {
             retreats_until: now.now + RETREAT,
             sinks_until: now.now + time_to_sink(now.pose.z_m),
             way_back: WayBack::begin(now.now, gust_since),
-            upwind: place_upwind(&now.pose, fence),
+            upwind: place_upwind(now, fence),
             back_at: fence.nearest_inside(&now.pose, INSIDE_M),
         }
     }
 
     /// The command of one tick.
     pub(super) fn command(&mut self, now: &Situation, fence: &FlightLimits) -> AgentCommand {
-        self.way_back.see(now);
-        let away_m = now.pose.x_m.hypot(now.pose.y_m);
+        let outside_m = fence.outside_m(&now.pose);
+        self.way_back.see(now, fence);
         // Once the drone is that far inside, its target must not move with it: nothing would stop it.
-        if away_m > fence.radius_m - INSIDE_M {
+        if outside_m > -INSIDE_M {
             self.back_at = fence.nearest_inside(&now.pose, INSIDE_M);
         }
-        let is_hopeless = away_m > fence.radius_m && self.way_back.is_none(now);
+        let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now, fence);
         let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
         let (target, may_fly) = match self.cause {
             Cause::OutsideFence => (self.retreat(&now.pose, fence), sinks || !is_hopeless),
@@ -111,25 +112,26 @@ impl Descent {
     fn retreat(&self, pose: &Pose, fence: &FlightLimits) -> Option<Pose> {
         let low_m = fence.floor_m + LOW_M;
         let target = Pose { z_m: low_m, ..self.back_at };
-        let is_inside = pose.x_m.hypot(pose.y_m) <= fence.radius_m;
+        let is_inside = fence.outside_m(pose) <= 0.0;
         let is_there = is_inside && pose.z_m <= low_m + LOW_M;
         (!is_there).then_some(target)
     }
 }
 
-/// A low target in the direction of the fence's centre, far enough for full tilt.
-pub(super) fn place_upwind(pose: &Pose, fence: &FlightLimits) -> Pose {
-    let away_m = pose.x_m.hypot(pose.y_m).max(f64::EPSILON);
-    let share = 1.0 - UPWIND_TARGET_M / away_m;
-    let low_m = fence.floor_m + LOW_M;
-    Pose { x_m: pose.x_m * share, y_m: pose.y_m * share, z_m: low_m, ..*pose }
+/// A low target away from the border that the drone is carried to, far enough for full tilt.
+pub(super) fn place_upwind(now: &Situation, fence: &FlightLimits) -> Pose {
+    let [right_m_s, forward_m_s, _] = now.velocity_m_s;
+    let heading = Vector2::new(right_m_s, forward_m_s).try_normalize(0.0).unwrap_or_default();
+    let here_m = across(&now.pose);
+    let [x_m, y_m] = (here_m + fence.border.back_from(here_m, heading) * UPWIND_TARGET_M).into();
+    Pose { x_m, y_m, z_m: fence.floor_m + LOW_M, ..now.pose }
 }
 
 /// Progress of a drone outside the fence on its way back.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct WayBack {
-    /// Smallest distance from the fence's centre so far, and when it was reached.
-    away_m: f64,
+    /// Smallest distance outside so far, and when it was reached.
+    outside_m: f64,
     nearer_at: Duration,
     /// Largest outward speed since it last fell by [`BRAKES_M_S`], and until when a braking drone is given
     /// time.
@@ -139,35 +141,39 @@ struct WayBack {
 
 impl WayBack {
     fn begin(now: Duration, gust_since: Duration) -> Self {
-        Self { nearer_at: now, brakes_until: gust_since + GUST, ..Self::default() }
+        Self {
+            outside_m: f64::NEG_INFINITY,
+            nearer_at: now,
+            away_m_s: 0.0,
+            brakes_until: gust_since + GUST,
+        }
     }
 
-    fn see(&mut self, now: &Situation) {
-        let away_m = now.pose.x_m.hypot(now.pose.y_m);
+    fn see(&mut self, now: &Situation, fence: &FlightLimits) {
+        let outside_m = fence.outside_m(&now.pose);
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
-        let away_m_s = outward(now, [right_m_s, forward_m_s]);
-        if away_m < self.away_m - WAY_BACK_M {
-            (self.away_m, self.nearer_at) = (away_m, now.now);
+        let away_m_s = outward(now, fence, [right_m_s, forward_m_s]);
+        if outside_m < self.outside_m - WAY_BACK_M {
+            (self.outside_m, self.nearer_at) = (outside_m, now.now);
         }
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
             self.brakes_until = self.brakes_until.max(now.now + BRAKES);
         }
-        self.away_m = self.away_m.max(away_m);
+        self.outside_m = self.outside_m.max(outside_m);
         self.away_m_s = self.away_m_s.max(away_m_s);
     }
 
-    fn is_none(&self, now: &Situation) -> bool {
+    fn is_none(&self, now: &Situation, fence: &FlightLimits) -> bool {
         let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
-        let too_strong = outward(now, now.wind) > TOO_STRONG;
+        let too_strong = outward(now, fence, now.wind) > TOO_STRONG;
         (no_nearer || too_strong) && now.now >= self.brakes_until
     }
 }
 
-/// The component of (right, forward) that points away from the fence's centre.
-pub(super) fn outward(now: &Situation, [right, forward]: [f64; 2]) -> f64 {
-    let Pose { x_m, y_m, .. } = now.pose;
-    (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
+/// The component of (right, forward) that points out.
+fn outward(now: &Situation, fence: &FlightLimits, direction: [f64; 2]) -> f64 {
+    fence.border.outward(across(&now.pose)).dot(&Vector2::from(direction))
 }
 
 /// Longest descent from this height to [`HIGH_M`].

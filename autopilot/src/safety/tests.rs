@@ -1,3 +1,5 @@
+use nalgebra::Vector2;
+
 use super::descent::*;
 use super::*;
 
@@ -285,7 +287,7 @@ fn targets_outside_the_fence_are_not_flown_to() {
         let (command, veto) = monitor().check(AgentCommand::GoTo(target), &FINE);
         assert_eq!(veto, Some(Veto::TargetOutside));
         let AgentCommand::GoTo(inside) = command else { panic!("{command:?}") };
-        assert!(monitor().is_inside(&inside, 1e-6), "{inside:?}");
+        assert!(monitor().fence.is_inside(&inside, FlightLimits::TOLERANCE_M), "{inside:?}");
     }
 }
 
@@ -330,6 +332,9 @@ fn manual_control_stops_before_the_fence_and_may_fly_back() {
 #[test]
 fn only_what_points_away_from_the_centre_is_outward() {
     let behind_right = Situation { pose: Pose { x_m: 6.0, y_m: -8.0, ..FINE.pose }, ..FINE };
+    let outward = |now: &Situation, [right, forward]: [f64; 2]| {
+        monitor().fence.border.outward(across(&now.pose)).dot(&Vector2::new(right, forward))
+    };
     for (direction, outward_m_s) in
         [([1.2, -1.6], 2.0), ([-1.2, 1.6], -2.0), ([1.6, 1.2], 0.0), ([1.0, 0.0], 0.6)]
     {
@@ -342,7 +347,7 @@ fn only_what_points_away_from_the_centre_is_outward() {
 /// Above the ceiling but not beyond the radius the drone cannot be carried further out by holding on.
 #[test]
 fn a_drone_that_is_only_too_high_is_flown_down_in_any_wind() {
-    let radius_m = FlightLimits::default().radius_m;
+    let radius_m = FlightLimits::default().border.furthest_m();
     for x_m in [0.0, radius_m] {
         let mut monitor = monitor();
         let lands = (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
@@ -376,7 +381,7 @@ fn a_drone_that_is_only_too_high_is_flown_down_where_it_was_found() {
 /// Outside the target is the nearest place inside, which the drone's drift along the fence moves.
 #[test]
 fn a_drone_outside_is_flown_to_the_nearest_place_inside() {
-    let FlightLimits { radius_m, .. } = FlightLimits::default();
+    let radius_m = FlightLimits::default().border.furthest_m();
     let mut monitor = monitor();
     let inside_m = radius_m - INSIDE_M;
     for (x_m, y_m, expected) in [
@@ -440,11 +445,11 @@ fn a_drone_stops_after_its_reaction_and_its_braking() {
 fn only_vetoes_that_land_are_reasons_for_a_landing() {
     use Veto::{
         AgainstWind, Blind, CarriedOff, Emergency, Landing, NearFence, OutsideFence, StaleNavdata,
-        TargetOutside,
+        TargetOutside, WayOutside,
     };
     let land = [Blind, OutsideFence, CarriedOff, Landing];
     assert!(land.into_iter().all(Veto::lands));
-    let stay_up = [StaleNavdata, Emergency, TargetOutside, NearFence, AgainstWind];
+    let stay_up = [StaleNavdata, Emergency, TargetOutside, WayOutside, NearFence, AgainstWind];
     assert!(!stay_up.into_iter().any(Veto::lands));
     for veto in land.into_iter().chain(stay_up) {
         assert_eq!(veto.name(), format!("{veto:?}"), "a log names the variant");

@@ -225,6 +225,7 @@ impl fmt::Display for FlightEvent {
                 Veto::Emergency => "emergency state: not flying",
                 Veto::Landing => "the drone lands: letting it",
                 Veto::TargetOutside => "target outside the fence: flying to its edge",
+                Veto::WayOutside => "the straight way to the target leaves the fence: stopping before it",
                 Veto::NearFence => "at the fence: stopping",
                 Veto::OutsideFence => "outside the fence: flying back and landing",
                 Veto::AgainstWind => "the wind is stronger than the drone can brake: leaning against it",

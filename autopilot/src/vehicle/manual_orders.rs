@@ -78,8 +78,8 @@ impl Vehicle {
                 *course = course_of(state);
             }
             let pose = pose(state);
-            let radius_m = (fence.radius_m - INSIDE_M).max(0.0);
-            setpoint.advance(course, &pose, (&limits, drag_1_s), radius_m, step_s);
+            let border = (&fence.border, INSIDE_M);
+            setpoint.advance(course, &pose, (&limits, drag_1_s), border, step_s);
             let wanted = setpoint.target(target, course, &pose, step_s);
             *target = fence.nearest_inside(&wanted, INSIDE_M);
             manual.flown = Some(*course);

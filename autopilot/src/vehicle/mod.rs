@@ -93,7 +93,7 @@ pub struct VehicleConfig {
     pub name: VehicleName,
     /// Number of its `MAVLink` system, 1 to 250.
     pub system: u8,
-    /// The fence: lowest and highest flight height, and radius.
+    /// The fence.
     pub limits: FlightLimits,
     /// Whether the drone's configuration is read back over the control port before take-off.
     pub read_back: bool,

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
 use serde::{Deserialize, Serialize};
 
+use crate::fence::{Border, Wall};
 use crate::safety::Stopping;
 
 /// Fastest climb and descent, in m/s.
@@ -16,6 +17,8 @@ const TURN_MAX_DEG_S: f64 = 60.0;
 const LEASH_M: f64 = 0.6;
 /// Likewise for its height.
 const CLIMB_LEASH_M: f64 = 1.2;
+/// A velocity in a corner of the fence that is too fast by this is given up, in m/s.
+const INTO_A_CORNER_M_S: f64 = 0.05;
 /// Likewise for its heading, in degrees.
 const LEASH_DEG: f64 = 45.0;
 
@@ -101,19 +104,20 @@ impl Setpoint {
         horizontal && vertical.is_finite() && heading
     }
 
-    /// Moves a course as this set-point wants, for `step_s`. The drone is at `pose`; the course stays within `radius_m` from
-    /// the origin. A drone that slows down is also braked by its drag.
+    /// Moves a course as this set-point wants, for `step_s`. The drone is at `pose`; the course stays inside the border by
+    /// `by_m`. A drone that slows down is also braked by its drag.
     pub(super) fn advance(
         &self,
         course: &mut Course,
         pose: &Pose,
         (limits, drag_1_s): (&MotionLimits, f64),
-        radius_m: f64,
+        (border, by_m): (&Border, f64),
         step_s: f64,
     ) {
         let wanted_m_s = match self.horizontal {
             Horizontal::Place { x_m, y_m } => {
-                course.velocity_to(&capped(Vector2::new(x_m, y_m), radius_m), limits)
+                let place_m = border.nearest_inside(Vector2::new(x_m, y_m), by_m);
+                course.velocity_to(&place_m, limits)
             }
             Horizontal::Velocity { x_m_s, y_m_s } => Vector2::new(x_m_s, y_m_s),
             Horizontal::BodyVelocity { right_m_s, forward_m_s } => {
@@ -122,7 +126,7 @@ impl Setpoint {
         };
         let wanted_m_s = capped(wanted_m_s, limits.speed_m_s);
         let here_m = Vector2::new(pose.x_m, pose.y_m);
-        let inside_m_s = kept_inside_m_s(wanted_m_s, course, &here_m, radius_m);
+        let inside_m_s = kept_inside_m_s(wanted_m_s, course, here_m, (border, by_m));
         let speed_m_s = course.velocity_m_s.norm();
         let slows = course.velocity_m_s.dot(&(inside_m_s - course.velocity_m_s)) < 0.0;
         let drag_m_s2 = if slows { drag_1_s * speed_m_s / 2.0 } else { 0.0 };
@@ -163,24 +167,32 @@ fn capped(vector: Vector2<f64>, most: f64) -> Vector2<f64> {
     if length > most { vector * (most / length) } else { vector }
 }
 
-/// A wanted velocity from which a drone that follows the course can stop before it is `radius_m` from the origin.
+/// A wanted velocity from which a drone that follows the course can stop while it is inside the border by `by_m`.
 fn kept_inside_m_s(
     wanted_m_s: Vector2<f64>,
     course: &Course,
-    here_m: &Vector2<f64>,
-    radius_m: f64,
+    here_m: Vector2<f64>,
+    (border, by_m): (&Border, f64),
 ) -> Vector2<f64> {
-    let foremost_m =
-        if here_m.norm() > course.position_m.norm() { here_m } else { &course.position_m };
-    let Some(outward) = foremost_m.try_normalize(f64::EPSILON) else { return wanted_m_s };
-    let most_m_s = Stopping::CAUTIOUS.speed_m_s(radius_m - foremost_m.norm());
-    let excess_m_s = course.velocity_m_s.dot(&outward) - most_m_s;
-    if excess_m_s > 0.0 {
+    let is_behind = border.outside_m(here_m) > border.outside_m(course.position_m);
+    let foremost_m = if is_behind { here_m } else { course.position_m };
+    let too_fast_m_s = |velocity_m_s: Vector2<f64>, wall: &Wall| {
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(wall.distance_m - by_m);
+        (velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)
+    };
+    let slowed =
+        |velocity_m_s, wall: Wall| velocity_m_s - wall.outward * too_fast_m_s(velocity_m_s, &wall);
+    let brakes_m_s =
+        border.walls(foremost_m).fold(course.velocity_m_s, slowed) - course.velocity_m_s;
+    if brakes_m_s != Vector2::zeros() {
         // All that it can do is to brake.
-        return -outward * excess_m_s;
+        return brakes_m_s;
     }
-    let too_fast_m_s = (wanted_m_s.dot(&outward) - most_m_s).max(0.0);
-    wanted_m_s - outward * too_fast_m_s
+    let kept_m_s = border.walls(foremost_m).fold(wanted_m_s, slowed);
+    // What avoids one wall may lead to another: then it stays where it is.
+    let is_trapped =
+        border.walls(foremost_m).any(|wall| too_fast_m_s(kept_m_s, &wall) > INTO_A_CORNER_M_S);
+    if is_trapped { Vector2::zeros() } else { kept_m_s }
 }
 
 #[cfg(test)]
@@ -212,7 +224,8 @@ mod tests {
         let (mut course, mut target, mut pose) = (at_rest(), HERE, HERE);
         let mut time_s = 0.0;
         while time_s < seconds {
-            setpoint.advance(&mut course, &pose, (&LIMITS, 0.0), radius_m, STEP_S);
+            let border = (&Border::circle(radius_m), 0.0);
+            setpoint.advance(&mut course, &pose, (&LIMITS, 0.0), border, STEP_S);
             target = setpoint.target(&target, &course, &pose, STEP_S);
             let (x_m, y_m) = (course.position_m.x, course.position_m.y);
             pose = Pose { x_m, y_m, ..pose };
@@ -248,7 +261,8 @@ mod tests {
             let mut furthest_m: f64 = 0.0;
             let (mut course, mut pose) = (at_rest(), HERE);
             for _ in 0..900 {
-                setpoint(horizontal).advance(&mut course, &pose, (&LIMITS, 0.0), 4.0, STEP_S);
+                let border = (&Border::circle(4.0), 0.0);
+                setpoint(horizontal).advance(&mut course, &pose, (&LIMITS, 0.0), border, STEP_S);
                 pose = Pose { x_m: course.position_m.x, y_m: course.position_m.y, ..pose };
                 furthest_m = furthest_m.max(course.position_m.norm());
             }
@@ -274,7 +288,8 @@ mod tests {
         let horizontal = Horizontal::Velocity { x_m_s: 99.0, y_m_s: 0.0 };
         let moves = Setpoint { horizontal, vertical, heading };
         let mut course = Course::new(Vector2::new(50.0, 2.0), Vector2::zeros());
-        moves.advance(&mut course, &HERE, (&LIMITS, 0.0), 99.0, STEP_S);
+        let border = (&Border::circle(99.0), 0.0);
+        moves.advance(&mut course, &HERE, (&LIMITS, 0.0), border, STEP_S);
         let target = moves.target(&far, &course, &HERE, STEP_S);
         assert_pose(&target, [1.0 + LEASH_M, 2.0, 1.0 + CLIMB_LEASH_M, 45.0]);
         let target = moves.target(&HERE, &course, &HERE, 1.0);
@@ -303,7 +318,8 @@ mod tests {
             let [x_m_s, y_m_s] = wanted_m_s;
             let wanted = setpoint(Horizontal::Velocity { x_m_s, y_m_s });
             let here = Pose { x_m: 0.0, y_m: 0.0, ..HERE };
-            wanted.advance(&mut course, &here, (&limits, 0.4), 99.0, STEP_S);
+            let border = (&Border::circle(99.0), 0.0);
+            wanted.advance(&mut course, &here, (&limits, 0.4), border, STEP_S);
             let found_m_s2 = course.acceleration_m_s2.norm();
             assert!((found_m_s2 - expected_m_s2).abs() < 1e-9, "{wanted_m_s:?}: {found_m_s2}");
         }
@@ -313,7 +329,8 @@ mod tests {
     fn near_the_fence_a_drone_flies_outward_no_faster_than_it_can_stop_and_inward_as_it_likes() {
         let inside = |wanted: [f64; 2], course_m: f64, here_m: f64, flies_m_s: f64| {
             let course = Course::new(Vector2::new(course_m, 0.0), Vector2::new(flies_m_s, 0.0));
-            kept_inside_m_s(wanted.into(), &course, &Vector2::new(here_m, 0.0), 4.0)
+            let border = (&Border::circle(4.0), 0.0);
+            kept_inside_m_s(wanted.into(), &course, Vector2::new(here_m, 0.0), border)
         };
         let most_m_s = Stopping::CAUTIOUS.speed_m_s(0.1);
         let is = |found: Vector2<f64>, x, y| (found - Vector2::new(x, y)).norm() < 1e-9;
@@ -325,5 +342,28 @@ mod tests {
             assert!(is(brakes, most_m_s - 2.0, 0.0), "{brakes}");
         }
         assert!(is(inside([-1.0, 0.5], 4.2, 4.2, 0.0), -1.0, 0.5), "it stands outside");
+    }
+
+    #[test]
+    fn in_a_polygon_every_side_counts_and_a_corner_is_no_trap() {
+        let square = [[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]];
+        let border = Border::polygon(&square).unwrap();
+        let inside = |[x_m, y_m]: [f64; 2], wanted: [f64; 2]| {
+            let here_m = Vector2::new(x_m, y_m);
+            let course = Course::new(here_m, Vector2::zeros());
+            kept_inside_m_s(wanted.into(), &course, here_m, (&border, 0.5))
+        };
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(0.1);
+        let is = |found: Vector2<f64>, x, y| (found - Vector2::new(x, y)).norm() < 1e-9;
+        assert!(is(inside([3.4, 0.0], [2.0, 1.0]), most_m_s, 1.0), "along the side it flies on");
+        assert!(is(inside([3.4, 3.4], [2.0, 2.0]), most_m_s, most_m_s), "into the corner");
+        assert!(is(inside([-3.4, 3.4], [2.0, 2.0]), 2.0, most_m_s), "out of another");
+        // What avoids the one side of a sharp corner leads to the other.
+        let sharp = [[-4.0, -1.0], [6.0, 0.0], [-4.0, 1.0]];
+        let sharp = Border::polygon(&sharp).unwrap();
+        let here_m = Vector2::new(0.5, 0.0);
+        let course = Course::new(here_m, Vector2::zeros());
+        let kept_m_s = kept_inside_m_s(Vector2::new(2.0, 0.0), &course, here_m, (&sharp, 0.5));
+        assert_eq!(kept_m_s, Vector2::zeros());
     }
 }

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use arrayvec::ArrayVec;
 
+use super::fence::{self, FENCE};
 use super::{Item, MAX_ITEMS, Problem, Rules, Translated, result, translate};
 use crate::dialect::MavMissionResult;
 
@@ -21,7 +22,6 @@ const REMEMBERED_FOR: Duration = Duration::from_secs(2);
 const DOWNLOADS: usize = 4;
 /// `MAV_MISSION_TYPE`.
 const MISSION: u8 = 0;
-const FENCE: u8 = 1;
 const RALLY: u8 = 2;
 const ALL: u8 = 255;
 
@@ -88,6 +88,8 @@ pub(crate) enum Event {
     Cleared,
     /// A new one was refused; the stored one is unchanged.
     Refused(Problem),
+    /// A fence was sent, or its removal asked for: it stays as it was set.
+    FenceStays,
     /// An upload was given up; the stored mission is unchanged.
     Cancelled,
 }
@@ -216,8 +218,19 @@ impl Transfer {
                 self.clear();
                 Handled::ack(result::ACCEPTED, mission_type).with(Event::Cleared)
             }
-            Received::RequestList { mission_type: FENCE | RALLY } => {
+            Received::RequestList { mission_type: FENCE } => {
+                Handled::send(Message::Count { count: fence::count(rules), mission_type })
+            }
+            Received::RequestList { mission_type: RALLY } => {
                 Handled::send(Message::Count { count: 0, mission_type })
+            }
+            Received::Request { seq, mission_type: FENCE } => match fence::item(seq, rules) {
+                Some(item) => Handled::send(Message::Item(item)),
+                None => Handled::ack(result::INVALID_SEQUENCE, FENCE),
+            },
+            Received::Count { mission_type: FENCE, .. }
+            | Received::ClearAll { mission_type: FENCE } => {
+                Handled::ack(result::DENIED, FENCE).with(Event::FenceStays)
             }
             Received::Ack { result, mission_type: MISSION | ALL } => {
                 self.acknowledged(from, result)

@@ -9,7 +9,7 @@ use kinematics::{Pose, wrap_deg};
 use super::program::{Step, TAKE_OFF, Translated};
 use super::{Item, command, result};
 use crate::dialect::MavMissionResult;
-use crate::place::{Frame, Global, Origin, Place, PlaceError};
+use crate::place::{Frame, GRID_M, Global, Origin, Place, PlaceError};
 
 /// Largest mission.
 pub(crate) const MAX_ITEMS: usize = 200;
@@ -24,8 +24,6 @@ const LONGEST_STAY_S: f64 = 600.0;
 const HOVER_M: f64 = 0.85;
 /// Slowest limit of the plan language, and its fastest.
 const SPEEDS_M_S: (f64, f64) = (0.1, 2.2);
-/// A place this far beyond a limit is on it: one unit of a latitude is 1.1 cm.
-const GRID_M: f64 = 0.012;
 /// Plans have four digits behind the point.
 const DIGITS: f64 = 1e4;
 /// Longer turns are flown in parts, since a drone takes the shortest way.
@@ -455,15 +453,17 @@ impl Translator {
 
     /// A place inside the fence, so that it is still there with few digits.
     fn inside(&self, at: At<'_>, (x_m, y_m): (f64, f64)) -> Result<(f64, f64), Problem> {
-        let radius_m = self.rules.fence.radius_m;
-        let away_m = x_m.hypot(y_m);
-        if away_m > radius_m + GRID_M {
-            let reason = format!("{away_m:.1} m from the start, outside the fence of {radius_m} m");
+        let (border, place_m) = (&self.rules.fence.border, [x_m, y_m].into());
+        if border.outside_m(place_m) > GRID_M {
+            return Err(at.problem(result::INVALID_PARAM5_X, border.how_far(place_m)));
+        }
+        let from_m = self.pose.map(|pose| [pose.x_m, pose.y_m].into());
+        if from_m.is_some_and(|from_m| border.leaves_at(from_m, place_m, GRID_M).is_some()) {
+            let reason = "the straight way to it leaves the fence: put a way-point before it";
             return Err(at.problem(result::INVALID_PARAM5_X, reason));
         }
-        let allowed_m = (radius_m - 2.0 / DIGITS).max(0.0);
-        let share = if away_m > allowed_m { allowed_m / away_m } else { 1.0 };
-        Ok((x_m * share, y_m * share))
+        let inside_m = border.nearest_inside(place_m, 2.0 / DIGITS);
+        Ok((inside_m.x, inside_m.y))
     }
 
     fn height(&self, at: At<'_>, z_m: f64) -> Result<f64, Problem> {

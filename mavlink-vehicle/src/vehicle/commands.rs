@@ -12,7 +12,7 @@ use super::parameters::TAKE_OFF_HEIGHT;
 use super::stations::Station;
 use super::{Autopilot, MavlinkVehicle, To};
 use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
-use crate::place::ABSENT;
+use crate::place::{ABSENT, GRID_M};
 
 /// The number with which a disarming cuts the motors in flight.
 const MAGIC_CUT: f32 = 21196.0;
@@ -453,12 +453,13 @@ impl MavlinkVehicle {
         let limits = self.config.limits;
         // A height of a tenth of a millimetre beyond is one that was rounded.
         let (low_m, high_m) = (limits.floor_m - 1e-3, limits.ceiling_m + 1e-3);
-        let outside =
-            place.ground_m.is_some_and(|(x_m, y_m)| x_m.hypot(y_m) > limits.radius_m + 0.012);
+        let outside = place
+            .ground_m
+            .is_some_and(|(x_m, y_m)| limits.border.outside_m([x_m, y_m].into()) > GRID_M);
         if outside || place.z_m.is_some_and(|z_m| !(low_m..=high_m).contains(&z_m)) {
             self.warn(format_args!(
-                "outside the fence: {} m around the start, {} to {} m high",
-                limits.radius_m, limits.floor_m, limits.ceiling_m
+                "outside the fence: {}, {} to {} m high",
+                limits.border, limits.floor_m, limits.ceiling_m
             ));
             return DENIED;
         }

@@ -44,7 +44,8 @@ impl Parameters {
         let seconds = |time: std::time::Duration| time.as_secs_f32();
         let limits = &config.limits;
         let (low_m, high_m) = (limits.floor_m as f32, limits.ceiling_m as f32);
-        let radius_m = limits.radius_m as f32;
+        // Of a polygon it is how far the drone may be from the start at most.
+        let radius_m = limits.border.furthest_m() as f32;
         let percent = |percent: u32| f64::from(percent) as f32;
         let (low_percent, landing_percent) =
             (percent(LOW_BATTERY_PERCENT), percent(LANDING_BATTERY_PERCENT));

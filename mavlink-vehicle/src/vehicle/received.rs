@@ -17,7 +17,7 @@ use crate::dialect::{
     TIMESYNC_DATA,
 };
 use crate::frame::Frame;
-use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
+use crate::mission::{Event, FENCE, Handled, Item, Message, Partner, Received, result};
 use crate::place::Origin;
 
 /// Most items of a mission of which it is told one by one what is flown otherwise.
@@ -274,7 +274,8 @@ impl MavlinkVehicle {
             _ => return,
         };
         let partner = Partner { system: station.system, component: station.component };
-        let changes = matches!(received, Received::Count { .. } | Received::ClearAll { .. });
+        let changes = matches!(received, Received::Count { .. } | Received::ClearAll { .. })
+            && received.mission_type() != FENCE;
         if changes && let Some(why) = self.may_not_change(station) {
             self.warn(format_args!("mission not changed: {why}"));
             let mission_type = received.mission_type();
@@ -325,6 +326,11 @@ impl MavlinkVehicle {
                 self.answer_request(To::All, 42, 0);
             }
             Event::Refused(problem) => self.warn(format_args!("{}", problem.reason)),
+            Event::FenceStays => {
+                self.warn(format_args!(
+                    "fence not changed: it is set where the vehicle is started"
+                ));
+            }
             Event::Cancelled => {
                 self.warn(format_args!("upload given up; the mission is unchanged"));
             }

@@ -58,9 +58,9 @@ pub(super) struct Fence {
 }
 
 impl Fence {
-    pub(super) fn new(limits: FlightLimits) -> Self {
+    pub(super) fn new(limits: &FlightLimits) -> Self {
         Self {
-            limits,
+            limits: *limits,
             out_of_hand: OutOfHand::default(),
             looked_at: None,
             out_of_hand_at: None,
@@ -79,7 +79,7 @@ impl Fence {
 
     /// Distance outside, corrected by the error of healthy sensors, which cannot be known in flight.
     fn outside_m(&self, truth: &Truth) -> f64 {
-        let across_m = truth.position_m.xy().norm() - self.limits.radius_m;
+        let across_m = self.limits.border.outside_m(truth.position_m.xy());
         let above_m = truth.position_m.z - self.limits.ceiling_m;
         across_m.max(above_m) - truth.drift_m().norm()
     }

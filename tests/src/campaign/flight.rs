@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use super::injected::Injected;
 use super::station::Station;
 use super::tags::Tags;
-use crate::airframes::{AIRFRAMES, Fleet, strongest_wind_m_s};
+use crate::airframes::{AIRFRAMES, Airframes, strongest_wind_m_s};
 use crate::sim::Simulation;
 use crate::trial::FENCE;
 
@@ -44,12 +44,12 @@ pub(super) struct Flight {
 
 impl Flight {
     /// The flight of a seed.
-    pub(super) fn of(fleet: Fleet, seed: u64) -> Self {
+    pub(super) fn of(airframes: Airframes, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let random = &mut random;
         let limits = FlightLimits { ceiling_m: random.random_range(1.6..3.0), ..FENCE };
         let airframe = random.random_range(0..AIRFRAMES.len());
-        let (profile, airframe) = (fleet.profile(airframe, seed), fleet.name(airframe));
+        let (profile, airframe) = (airframes.profile(airframe, seed), airframes.name(airframe));
         let strongest_m_s = strongest_wind_m_s(&profile);
         let mut drone = drone(random, seed, profile, strongest_m_s, &limits);
         let link = if random.random_bool(0.3) { LinkFaults::default() } else { link(random) };

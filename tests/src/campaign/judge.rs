@@ -154,7 +154,7 @@ pub(super) struct Judge {
 impl Judge {
     pub(super) fn new(flight: &Flight) -> Self {
         let drone = &flight.simulation.world.drone;
-        let limits = flight.simulation.pilot.limits;
+        let limits = &flight.simulation.pilot.limits;
         Self {
             injected: flight.injected.clone(),
             wind_m_s: drone.wind_m_s.norm(),
@@ -471,7 +471,7 @@ pub(super) struct Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::airframes::Fleet;
+    use crate::airframes::Airframes;
 
     /// Seconds after which the judge reports a danger of this duration, in a flight that goes on.
     fn patience_s(danger: Danger, lasts_s: u32, reached: bool) -> Option<f64> {
@@ -504,7 +504,7 @@ mod tests {
     #[test]
     fn each_flight_is_the_same_for_judge_and_pilot() {
         for seed in 0..50 {
-            let flight = Flight::of(Fleet::Published, seed);
+            let flight = Flight::of(Airframes::Published, seed);
             assert_eq!(flight.simulation.world.scenario, flight.injected.scenario());
             assert_eq!(flight.simulation.stalls, flight.injected.stalls);
         }

@@ -19,7 +19,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::{FlightEvent, LandingReason};
 
-use crate::airframes::Fleet;
+use crate::airframes::Airframes;
 use crate::sim::SimulationError;
 
 pub use self::fault::{Danger, Fault};
@@ -62,15 +62,15 @@ impl Verdict {
 /// # Errors
 /// As [`fly_of`].
 pub fn fly(seed: u64) -> Result<Verdict, SimulationError> {
-    fly_of(Fleet::Published, seed)
+    fly_of(Airframes::Published, seed)
 }
 
 /// Flies the flight of a seed.
 ///
 /// # Errors
 /// [`SimulationError`] if the flight never ends, which is a failure of the campaign itself.
-pub fn fly_of(fleet: Fleet, seed: u64) -> Result<Verdict, SimulationError> {
-    let flight = Flight::of(fleet, seed);
+pub fn fly_of(airframes: Airframes, seed: u64) -> Result<Verdict, SimulationError> {
+    let flight = Flight::of(airframes, seed);
     let mut judge = Judge::new(&flight);
     let flown = flight
         .simulation

@@ -52,7 +52,7 @@ impl Orders {
     pub(super) fn new(
         all: &[(Duration, OperatorOrder)],
         others: &[(Duration, Operator, OperatorOrder)],
-        limits: FlightLimits,
+        limits: &FlightLimits,
         last_step: usize,
     ) -> Self {
         // Anyone may hold and land. What else others order may have an effect or not, but disturbs.
@@ -63,7 +63,15 @@ impl Orders {
         });
         let mut all: Vec<_> = all.iter().cloned().chain(others).collect();
         all.sort_by_key(|(at, _)| *at);
-        Self { all, next: 0, limits, last_step, lands_for: None, cuts_for: None, watched: None }
+        Self {
+            all,
+            next: 0,
+            limits: *limits,
+            last_step,
+            lands_for: None,
+            cuts_for: None,
+            watched: None,
+        }
     }
 
     /// `reached`: the drone hears us now.
@@ -126,7 +134,7 @@ impl Orders {
             OperatorOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
             OperatorOrder::GoTo(Place { x_m: Some(x_m), y_m: Some(y_m), .. }) => {
                 let wanted_m = Vector2::new(x_m, y_m);
-                let to_m = wanted_m.cap_magnitude(self.limits.radius_m - INSIDE_M);
+                let to_m = self.limits.border.nearest_inside(wanted_m, INSIDE_M);
                 let far_m = (to_m - truth.odometry_m).norm();
                 Some(Watched::GoTo { at: *now, to_m, far_m })
             }

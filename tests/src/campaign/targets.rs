@@ -25,14 +25,14 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    pub(super) fn of(plan: &Plan, limits: FlightLimits, has_tags: bool) -> Self {
+    pub(super) fn of(plan: &Plan, limits: &FlightLimits, has_tags: bool) -> Self {
         let wanted_m = plan.steps().iter().enumerate().filter_map(|(index, step)| {
             let Command::GoTo(pose) = step.command else { return None };
             Some((index, Vector3::new(pose.x_m, pose.y_m, pose.z_m)))
         });
         Self {
             wanted_m: wanted_m.collect(),
-            limits,
+            limits: *limits,
             origin_m: Vector3::zeros(),
             took_off: false,
             has_tags,
@@ -60,7 +60,7 @@ impl Targets {
         let (_, wanted_m) = self.wanted_m.iter().find(|(index, _)| *index == step)?;
         let to_m = self.origin_m + wanted_m;
         // The drone hovers elsewhere than assumed by the check: targets outside the fence are moved inside.
-        let across_m: Vector2<f64> = to_m.xy().cap_magnitude(self.limits.radius_m);
+        let across_m: Vector2<f64> = self.limits.border.nearest_inside(to_m.xy(), 0.0);
         let height_m = to_m.z.clamp(self.limits.floor_m, self.limits.ceiling_m);
         let error_m = |place_m: Vector3<f64>| (place_m - across_m.push(height_m)).norm();
         let by_sensors_m = error_m(place_in_navdata_frame(truth));

@@ -2,15 +2,16 @@
 
 use std::time::Duration;
 
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::TagConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
 use nalgebra::Vector2;
 
+use crate::airframes::{AIRFRAMES, Model};
 use crate::plan;
-use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
+use crate::sensors::MOST_OUTSIDE_M;
 use crate::sim::SimulationError;
 use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 
@@ -158,7 +159,7 @@ pub(super) fn wrong_after_a_gap_in_motion() -> Vec<Trial> {
                     .and(When::SinceStart(at), nan)
                     .and(When::SinceStart(at + gap), wrong);
                 let what = format!("{name}, {quantity:?} missing at {at:?}, then wrong");
-                let m = FENCE.radius_m + MOST_OUTSIDE_M;
+                let m = FENCE.border.furthest_m() + MOST_OUTSIDE_M;
                 let trial = Trial::new(what, plan, profile, scenario);
                 trials.push(trial.and(Must::StayNear { m, by_sensors: true }));
             }
@@ -215,7 +216,7 @@ pub(super) fn steps_in_a_turn() -> Result<Vec<Trial>, SimulationError> {
             let scenario = scenario.and(When::SinceStart(at + missing), step);
             let what = format!("{name}, a step of {deg} after {missing:?} {into:?} into a turn");
             let mut trial = Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
-            trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
+            trial.simulation.pilot.limits = FlightLimits { border: Border::circle(8.0), ..FENCE };
             trials.push(trial);
         }
     }
@@ -248,7 +249,7 @@ pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
             let scenario = Scenario::default().and(When::SinceStart(begun + into), action);
             let what = format!("{name} {action:?} {into:?} into a turn");
             let mut trial = Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
-            trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
+            trial.simulation.pilot.limits = FlightLimits { border: Border::circle(8.0), ..FENCE };
             trials.push(trial);
         }
     }

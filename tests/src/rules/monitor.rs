@@ -2,14 +2,14 @@
 
 use std::time::Duration;
 
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{OperatorOrder, TICK};
 use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault};
 
+use crate::airframes::{AIRFRAMES, Model};
 use crate::plan;
-use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::SimulationError;
 use crate::trial::{FENCE, FOR_EVER, HOLD, HOLDS_AT, Must, Trial};
 
@@ -28,7 +28,10 @@ pub(super) fn above_the_ceiling() -> Vec<Trial> {
                 let what = format!("{name} taken over at {height_m} m, held after {held_at:?}");
                 let mut trial = Trial::new(what, TAKE_OVER, profile, Scenario::default())
                     .and(Must::StayBelow { m: CEILING_M + MARGIN_M, since: DOWN_TO_IT })
-                    .and(Must::StayNear { m: FENCE.radius_m + MARGIN_M, by_sensors: true });
+                    .and(Must::StayNear {
+                        m: FENCE.border.furthest_m() + MARGIN_M,
+                        by_sensors: true,
+                    });
                 trial.simulation.world.drone.flies_at_m = Some(height_m);
                 trial.simulation.pilot.limits = limits;
                 trial.simulation.orders = vec![(held_at, OperatorOrder::Hold)];
@@ -121,7 +124,7 @@ pub(super) fn slow() -> Vec<Trial> {
     const ON_ITS_WAY: Duration = Duration::from_secs(50);
     const GIVES_UP_BY: Duration = Duration::from_secs(85);
     let plan = format!("takeoff\nsetMaxControl 0.05\ngoto 0 {AWAY_M} 0 0\nland\n");
-    let limits = FlightLimits { radius_m: AWAY_M + 10.0, ..FENCE };
+    let limits = FlightLimits { border: Border::circle(AWAY_M + 10.0), ..FENCE };
     let trials = AIRFRAMES.map(|Model { name, profile }| {
         let what = format!("{name} slowly to {AWAY_M} m");
         let mut trial = Trial::new(what, &plan, profile, Scenario::default())

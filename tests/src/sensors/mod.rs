@@ -23,8 +23,7 @@ use rand_chacha::ChaCha8Rng;
 
 pub use random::{RandomFlight, random, random_of};
 
-pub use crate::airframes::{AIRFRAMES, Model};
-
+use crate::airframes::Model;
 use crate::sim::{Moment, Simulation, SimulationError};
 use crate::trial::{FENCE, FOR_EVER};
 use crate::{alone, place_in_navdata_frame};
@@ -246,7 +245,7 @@ impl Excursion {
     fn see(&mut self, truth: &Truth, between: [Vector3<f64>; 2]) {
         // The error of healthy sensors cannot be known in flight.
         let place_m = place_in_navdata_frame(truth);
-        let across_m = place_m.xy().norm() - FENCE.radius_m;
+        let across_m = FENCE.border.outside_m(place_m.xy());
         self.outside_m = self.outside_m.max(across_m).max(place_m.z - FENCE.ceiling_m);
         let [from, to] = between;
         let nearest = nearest_on_way(place_m.xy(), from.xy(), to.xy());

@@ -12,8 +12,8 @@ use mock_drone::{Quantity, SensorFault};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AIRFRAMES, Excursion, Flown, GAINS, STEP, Situation};
-use crate::airframes::Fleet;
+use super::{Excursion, Flown, GAINS, STEP, Situation};
+use crate::airframes::{AIRFRAMES, Airframes};
 use crate::sim::SimulationError;
 use crate::trial::FOR_EVER;
 
@@ -126,7 +126,7 @@ impl fmt::Display for RandomFlight {
 /// # Panics
 /// If the healthy flight ends before the step that is observed.
 pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
-    let flight = random_of(Fleet::Published, number)?;
+    let flight = random_of(Airframes::Published, number)?;
     Ok(flight.unwrap_or_else(|| panic!("number {number}: never came so far")))
 }
 
@@ -134,10 +134,13 @@ pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
 ///
 /// # Errors
 /// [`SimulationError`] if the flight never ends.
-pub fn random_of(fleet: Fleet, number: u64) -> Result<Option<RandomFlight>, SimulationError> {
+pub fn random_of(
+    airframes: Airframes,
+    number: u64,
+) -> Result<Option<RandomFlight>, SimulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(number ^ 0x7261_6e64);
     let airframe = random.random_range(0..AIRFRAMES.len());
-    let (profile, airframe) = (fleet.profile(airframe, number), fleet.name(airframe));
+    let (profile, airframe) = (airframes.profile(airframe, number), airframes.name(airframe));
     let situation = Situation::ALL[random.random_range(0..Situation::ALL.len())];
     let (plan, between) = situation.plan();
     let healthy = super::simulation(profile, situation, number, &mut random);

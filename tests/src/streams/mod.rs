@@ -8,7 +8,7 @@ use std::fmt;
 use std::time::Duration;
 
 use autopilot::Plan;
-use autopilot::plan::FlightLimits;
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::{Operator, OperatorOrder, Station, VehicleConfig};
 use mock_drone::firmware::Phase;
 use mock_drone::sensors::SensorModel;
@@ -19,12 +19,15 @@ use rand_chacha::ChaCha8Rng;
 
 use self::orders::{Moving, direction, give, nonsense, present, rate, seconds, stopping};
 
-use crate::sensors::AIRFRAMES;
+use crate::airframes::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
 use crate::trial;
 
-/// The fence of all flights.
+/// The fence of half of the flights.
 const FENCE: FlightLimits = FlightLimits { ceiling_m: 2.5, ..trial::FENCE };
+/// The border of the other half: it has a corner that points in.
+pub const L_M: [[f64; 2]; 6] =
+    [[-3.0, -3.0], [1.5, -3.0], [1.5, 1.2], [4.0, 1.2], [4.0, 4.0], [-3.0, 4.0]];
 /// The drone holds its position above the start by then.
 const BEGINS: Duration = Duration::from_secs(11);
 /// Time after the stream in which the drone comes to rest, before it is landed.
@@ -231,11 +234,13 @@ impl Stream {
             100.0 * loss,
             if is_low { ", from near the floor" } else { "" },
         );
+        // Each airframe flies in both.
+        let fence = if (seed / 4).is_multiple_of(2) { in_an_l() } else { FENCE };
         let link = LinkFaults { loss, ..LinkFaults::default() };
         let up_m = if is_low { -0.5 } else { 0.3 };
         let simulation = Simulation {
             world: WorldConfig { drone, link, ..WorldConfig::default() },
-            pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },
+            pilot: VehicleConfig { limits: fence, ..VehicleConfig::default() },
             ..Simulation::default()
         };
         let plan =
@@ -275,7 +280,8 @@ impl Stream {
             if !is_up || moment.now >= ordered_to_land {
                 return;
             }
-            course.outside_m = course.outside_m.max(outside_m(truth));
+            course.outside_m =
+                course.outside_m.max(outside_m(truth, &self.simulation.pilot.limits));
             if moment.now >= BEGINS {
                 let before = *touched_before.get_or_insert(truth.floor_contacts);
                 course.touches = truth.floor_contacts - before;
@@ -294,12 +300,22 @@ impl Stream {
 }
 
 /// As the campaign's judge measures it.
-fn outside_m(truth: &Truth) -> f64 {
-    let across_m = truth.position_m.xy().norm() - FENCE.radius_m;
-    let above_m = truth.position_m.z - FENCE.ceiling_m;
+fn outside_m(truth: &Truth, fence: &FlightLimits) -> f64 {
+    let across_m = fence.border.outside_m(truth.position_m.xy());
+    let above_m = truth.position_m.z - fence.ceiling_m;
     across_m.max(above_m) - truth.drift_m().norm()
 }
 
+/// The fence with the border [`L_M`].
+///
+/// # Panics
+/// Never: it is one.
+fn in_an_l() -> FlightLimits {
+    let border = Border::polygon(&L_M).unwrap_or_else(|error| panic!("{error}"));
+    FlightLimits { border, ..FENCE }
+}
+
+/// Its targets are inside both fences.
 fn plan(text: &str) -> Plan {
     Plan::parse_within("stream", text, &FENCE).unwrap_or_else(|error| panic!("{error}"))
 }

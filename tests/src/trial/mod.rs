@@ -5,7 +5,7 @@ mod must;
 use std::time::Duration;
 
 use autopilot::Plan;
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::{Border, FlightLimits};
 use autopilot::vehicle::VehicleConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
@@ -16,8 +16,7 @@ pub(crate) use self::must::Must;
 use crate::sim::{Simulation, SimulationError};
 
 /// The fence, unless a flight needs another one.
-pub(crate) const FENCE: FlightLimits =
-    FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
+pub(crate) const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
 /// A fault that does not end: longer than any flight.
 pub(crate) const FOR_EVER: Duration = Duration::from_mins(30);
 /// The drone holds its position above the start by then, 1.3 m high, and until the end of the plan.

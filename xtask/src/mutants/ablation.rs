@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::workspace::Workspace;
-use super::{MutantsError, cargo, folder, in_file};
+use super::{MutantsError, cargo, chosen, in_file};
 use crate::compare::{self, Change, Line};
 use crate::edit::{Mutant, edit};
 
@@ -158,15 +158,7 @@ impl Flown {
 /// Flies the pilot as it is, and without each piece of evidence that has `only` in its name. The second value is whether
 /// each is missed.
 pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool), MutantsError> {
-    let wanted = |evidence: &&Evidence| only.is_none_or(|only| evidence.name.contains(only));
-    let evidence: Vec<&Evidence> = EVIDENCE.iter().filter(wanted).collect();
-    if evidence.is_empty() {
-        return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
-    }
-    let workspace = Workspace::copy(Path::new("."), &folder())?;
-    for evidence in &evidence {
-        workspace.changed(evidence)?;
-    }
+    let (evidence, workspace) = chosen(EVIDENCE.iter(), only)?;
     let with_all = flown(&workspace, "the code as it is", flights)?;
     let mut text = format!(
         "{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}{:>8}  most in\n{:<50}{:>9}{:>8}{:>8}{:>10}{:>11}{:>9}{:>8}\n",
@@ -202,7 +194,11 @@ pub(crate) fn run(flights: Flights, only: Option<&str>) -> Result<(String, bool)
                 let line = row(evidence.name, &with_all, &without_it);
                 if is_missed { line } else { format!("{}  NOT MISSED\n", line.trim_end()) }
             }
-            Err(MutantsError::BreaksOff { what, .. }) => format!("{:<50}{what}\n", evidence.name),
+            // Without its flights nothing is known of it.
+            Err(MutantsError::BreaksOff { what, .. }) => {
+                is_each_missed = false;
+                format!("{:<50}BREAKS OFF: {what}\n", evidence.name)
+            }
             Err(error) => return Err(error),
         };
         print(&line);
@@ -292,5 +288,23 @@ mod tests {
         let report = "a\n\n12 of 300 landed without need\ndone in 1 s\n";
         assert_eq!(counted(report, "landed without need"), Some(12));
         assert_eq!(counted(report, "must"), None);
+    }
+
+    #[test]
+    fn evidence_is_missed_if_failures_lead_further_or_more_is_landed_or_broken() {
+        let flown = |too_far: bool, landed: u64, broken: u64| {
+            let line = Line { too_far, judged: true, ..Line::default() };
+            Flown { lines: vec![line], landed, broken }
+        };
+        let with_all = flown(false, 5, 1);
+        for (without_it, is_missed) in [
+            (flown(false, 5, 1), false),
+            (flown(false, 4, 0), false),
+            (flown(true, 5, 1), true),
+            (flown(false, 6, 1), true),
+            (flown(false, 5, 2), true),
+        ] {
+            assert_eq!(without_it.is_worse_than(&with_all), is_missed, "{without_it:?}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Mutants of a layer behind others that work. Random flights do not detect them, but `system_tests::rules` has flights
 //! for each.
 
-use super::list::{AGENT, ESTIMATOR, Expected, Mutant, SAFETY, mutant};
+use super::list::{AGENT, ESTIMATOR, Expected, FENCE, Mutant, SAFETY, mutant};
 use crate::edit::{edit, layered};
 
 const BELIEF: &str = "estimator/src/belief.rs";
@@ -97,9 +97,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // The safety monitor and the flight.
     mutant(
         "no ceiling",
-        SAFETY,
-        "&& pose.z_m <= self.fence.ceiling_m + margin_m",
-        "&& pose.z_m <= self.fence.ceiling_m + margin_m.max(1e9)",
+        FENCE,
+        "&& place.z_m <= self.ceiling_m + margin_m",
+        "&& place.z_m <= self.ceiling_m + margin_m.max(1e9)",
     ),
     mutant(
         "it is forgotten that the drone must stay down",

@@ -20,6 +20,7 @@ pub(super) const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
 const ACTIVITY: &str = "autopilot/src/agent/activity.rs";
 pub(super) const SAFETY: &str = "autopilot/src/safety.rs";
+pub(super) const FENCE: &str = "autopilot/src/fence.rs";
 const DESCENT: &str = "autopilot/src/safety/descent.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
@@ -103,7 +104,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "no fence",
         SAFETY,
         "Self {\n            fence,",
-        "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
+        "let fence = FlightLimits { z_origin: fence.z_origin, ..FlightLimits::NONE };\n        Self {\n            fence,",
     ),
     mutant(
         "no vetoes at all",
@@ -114,15 +115,15 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant("guard off in the air", SAFETY, "if !now.airborne {", "if now.airborne {"),
     mutant(
         "the fence holds the drone outside",
-        SAFETY,
-        "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
-        "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
+        FENCE,
+        "self.outside_m(place) <= margin_m && place.z_m",
+        "self.outside_m(place) >= margin_m && place.z_m",
     ),
     mutant(
         "the ceiling holds the drone above",
-        SAFETY,
-        "&& pose.z_m <= self.fence.ceiling_m + margin_m",
-        "&& pose.z_m >= self.fence.ceiling_m + margin_m",
+        FENCE,
+        "&& place.z_m <= self.ceiling_m + margin_m",
+        "&& place.z_m >= self.ceiling_m + margin_m",
     ),
     mutant(
         "floor and ceiling changed places",
@@ -167,7 +168,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
             ),
             edit(
                 DESCENT,
-                "let is_hopeless = away_m > fence.radius_m && self.way_back.is_none(now);",
+                "let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now, fence);",
                 "let is_hopeless = false;",
             ),
         ],
@@ -357,8 +358,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         mutant(
             "station: set-points lead out of the fence",
             SETPOINT,
-            "wanted_m_s - outward * too_fast_m_s",
-            "wanted_m_s - outward * (0.0 * too_fast_m_s)",
+            "(velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
+            "(0.0 * velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
         ),
         &[
             edit(
@@ -367,9 +368,14 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "*target = wanted;",
             ),
             edit(
+                FENCE,
+                "self.outside_m(place) <= margin_m && place.z_m",
+                "self.outside_m(place) <= margin_m.max(1e9) && place.z_m",
+            ),
+            edit(
                 SAFETY,
-                "self.fence.radius_m + margin_m",
-                "self.fence.radius_m + margin_m.max(1e9)",
+                "fence.stop_before(&now.pose, &inside, BEYOND_M, INSIDE_M)",
+                "fence.stop_before(&now.pose, &inside, BEYOND_M.max(1e9), INSIDE_M)",
             ),
         ],
     ),

@@ -79,15 +79,7 @@ enum End {
 /// Flies each mutant, or those with `only` in their name, until a fault is found or `flights` were flown. The
 /// second value is whether the judge found in each what it must.
 pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
-    let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
-    let mutants: Vec<&Mutant> = all_by_hand().filter(wanted).collect();
-    if mutants.is_empty() {
-        return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
-    }
-    let workspace = Workspace::copy(Path::new("."), &folder())?;
-    for mutant in &mutants {
-        workspace.changed(mutant)?;
-    }
+    let (mutants, workspace) = chosen(all_by_hand(), only)?;
     if let End::Caught(what) = judged(&workspace, "the code as it is", flights)? {
         return Err(MutantsError::Healthy(what));
     }
@@ -196,6 +188,24 @@ fn cargo(folder: &Path) -> Command {
 }
 
 /// Folder in which mutants are built.
+/// The mutants that have `only` in their name, and a copy of the workspace that all of them can be made in.
+fn chosen<'a, E>(
+    mutants: impl Iterator<Item = &'a crate::edit::Mutant<E>>,
+    only: Option<&str>,
+) -> Result<(Vec<&'a crate::edit::Mutant<E>>, Workspace), MutantsError> {
+    let wanted =
+        |mutant: &&crate::edit::Mutant<E>| only.is_none_or(|only| mutant.name.contains(only));
+    let mutants: Vec<_> = mutants.filter(wanted).collect();
+    if mutants.is_empty() {
+        return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
+    }
+    let workspace = Workspace::copy(Path::new("."), &folder())?;
+    for mutant in &mutants {
+        workspace.changed(mutant)?;
+    }
+    Ok((mutants, workspace))
+}
+
 fn folder() -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);

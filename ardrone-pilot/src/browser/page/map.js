@@ -78,7 +78,7 @@ const map = (() => {
     // Of a mark, in metres: large enough for its number on a small screen, in pixels.
     const SMALLEST = 14;
     const size = Math.max(visible * 0.05, (SMALLEST * 2 * visible) / least);
-    $("fence").setAttribute("r", flight.radius_m);
+    $("fence").setAttribute("points", points(flight.fence.outline_m));
     const planning = document.body.dataset.view === "plan";
     plan.drawOn(size);
     if (planning) {
@@ -167,7 +167,7 @@ const map = (() => {
     $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
     const tagged = status && status.tags ? "; roundels: tags with one standard deviation, * surveyed" : "";
     const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
-    $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start${tagged}${simulated}`;
+    $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.fence.text}${tagged}${simulated}`;
   }
 
   // Where a mouse or a finger points to, in metres right and forward.

@@ -12,7 +12,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
+use ratatui::widgets::canvas::{Canvas, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
 use super::tags;
@@ -274,7 +274,9 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
         .x_bounds([middle.0 - half_m * wide, middle.0 + half_m * wide])
         .y_bounds([middle.1 - half_m, middle.1 + half_m])
         .paint(|context| {
-            context.draw(&Circle { x: 0.0, y: 0.0, radius: view.limits.radius_m, color: WARNING });
+            for [[x1, y1], [x2, y2]] in view.limits.border.sides_m() {
+                context.draw(&Segment { x1, y1, x2, y2, color: WARNING });
+            }
             context.draw(&Points { coords: &trail, color: Color::DarkGray });
             context.print(0.0, 0.0, "·");
             tags::mark(context, view.status.as_ref());

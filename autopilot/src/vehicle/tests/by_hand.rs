@@ -93,7 +93,7 @@ fn a_course_ends_as_far_inside_the_fence_as_a_drone_is_stopped_by_hand() {
         bench.vehicle.advance_setpoint(&Prediction { position_m, ..Prediction::default() }, 0.03);
     }
     let end_m = course(&bench).position_m.norm();
-    let inside_m = FlightLimits::default().radius_m - INSIDE_M;
+    let inside_m = FlightLimits::default().border.furthest_m() - INSIDE_M;
     assert!((inside_m - 0.2..inside_m + 0.05).contains(&end_m), "{end_m}");
 }
 

@@ -7,7 +7,7 @@ use kinematics::Sticks;
 use super::bench::{Bench, SECOND, START};
 use super::*;
 use crate::agent::AgentCommand;
-use crate::plan::Commands;
+use crate::plan::{Border, Commands};
 
 const PLAN: &str = "takeoff\nland";
 const STAY: &str = "takeoff\ngoto 0 0 0 0\ngoto 0 1 0 0\nland";
@@ -477,7 +477,7 @@ fn a_station_without_controls_is_watched_as_long_as_the_drone_flies_for_it() {
 #[test]
 fn a_drone_that_is_flown_back_into_its_fence_lands_where_it_is_on_order() {
     let mut config = VehicleConfig { read_back: false, ..VehicleConfig::default() };
-    config.limits.radius_m = 0.1;
+    config.limits.border = Border::circle(0.1);
     let mut bench = Bench::in_the_air_with(&config, STAY);
     bench.accepted(OperatorOrder::Hold);
     bench.drifts_m_s = 0.3;

@@ -1,6 +1,6 @@
 use std::collections::VecDeque;
 
-use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::plan::{Border, FlightLimits};
 use proptest::prelude::*;
 
 use super::*;
@@ -15,7 +15,7 @@ const RULES: Rules = Rules {
         altitude_m: 488.0,
         heading_deg: 0.0,
     },
-    fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },
+    fence: FlightLimits::new(Border::circle(10.0), 0.3, 3.0),
     max_speed_m_s: 2.2,
 };
 const QGC: Partner = Partner { system: 255, component: 190 };
@@ -279,13 +279,32 @@ fn too_large_a_mission_is_refused() {
 }
 
 #[test]
+fn the_fence_is_read_and_not_changed() {
+    let mut bench = Bench::default();
+    bench.upload(&mission(1, 2));
+    let count = Message::Count { count: 1, mission_type: FENCE };
+    bench.assert(QGC, Received::RequestList { mission_type: FENCE }, &[count]);
+    let item = fence::item(0, &RULES).unwrap();
+    let asked = |seq| Received::Request { seq, mission_type: FENCE };
+    bench.assert(QGC, asked(0), &[Message::Item(item)]);
+    let ack = |result| [Message::Ack { result, mission_type: FENCE }];
+    bench.assert(QGC, asked(1), &ack(result::INVALID_SEQUENCE));
+    let denied = ack(result::DENIED);
+    bench.assert(QGC, Received::Count { count: 0, mission_type: FENCE }, &denied);
+    bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &denied);
+    bench.assert(QGC, Received::ClearAll { mission_type: FENCE }, &denied);
+    bench.assert(QGC, Received::Item(item), &ack(result::UNSUPPORTED));
+    assert_eq!(bench.transfer.items(), mission(1, 2));
+}
+
+#[test]
 fn there_are_only_missions() {
     let mut bench = Bench::default();
     bench.upload(&mission(1, 2));
-    for mission_type in [FENCE, RALLY, 7, ALL] {
+    for mission_type in [RALLY, 7, ALL] {
         let unsupported = [Message::Ack { result: result::UNSUPPORTED, mission_type }];
         let list = match mission_type {
-            FENCE | RALLY => [Message::Count { count: 0, mission_type }],
+            RALLY => [Message::Count { count: 0, mission_type }],
             _ => unsupported,
         };
         bench.assert(QGC, Received::RequestList { mission_type }, &list);

@@ -1,4 +1,4 @@
-use autopilot::plan::ZOrigin;
+use autopilot::plan::Border;
 use proptest::prelude::*;
 
 use super::*;
@@ -6,8 +6,7 @@ use crate::mission::command::*;
 use crate::mission::tests::{item, written};
 use crate::place::ABSENT;
 
-const LIMITS: FlightLimits =
-    FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover };
+const LIMITS: FlightLimits = FlightLimits::new(Border::circle(10.0), 0.3, 3.0);
 const RULES: Rules = Rules {
     origin: Origin {
         latitude_deg: 47.397_742,
@@ -124,7 +123,7 @@ fn a_take_off_climbs_to_the_height_of_its_item() {
     assert_problem(
         &[at(NAV_TAKEOFF, 11, 0, 1.0)],
         result::INVALID_PARAM5_X,
-        "11.0 m from the start, outside the fence of 10 m",
+        "11.00 m from the start, beyond the fence of 10 m",
     );
 }
 
@@ -318,7 +317,7 @@ fn a_landing_is_at_its_place_or_here() {
     // In a local frame zeros are the start.
     let start = &["takeoff", "goto 1 0 1.2 0", "goto 0 0 1.2 0", "land"];
     assert_flown(&[way_point, item(0, NED, NAV_LAND)], start);
-    assert_problem(&[at(NAV_LAND, 0, -20, 0.0)], result::INVALID_PARAM5_X, "20.0 m");
+    assert_problem(&[at(NAV_LAND, 0, -20, 0.0)], result::INVALID_PARAM5_X, "20.00 m");
     let behind = [item(0, MISSION, NAV_LAND), take_off()];
     assert_problem(&behind, result::UNSUPPORTED, "behind the landing of item 0");
 }
@@ -345,7 +344,7 @@ fn other_commands_are_refused_by_name() {
 #[test]
 fn the_fence_is_respected_to_a_centimetre() {
     let outside = [take_off(), at(NAV_WAYPOINT, 8, 9, 1.0)];
-    assert_problem(&outside, result::INVALID_PARAM5_X, "item 1: 12.0 m from the start");
+    assert_problem(&outside, result::INVALID_PARAM5_X, "item 1: 12.04 m from the start");
     for z_m in [0.2, 3.1, -1.0] {
         assert_problem(
             &[at(NAV_WAYPOINT, 1, 0, z_m)],
@@ -360,7 +359,23 @@ fn the_fence_is_respected_to_a_centimetre() {
     let low = Item { x, y, z: 488.3, ..item(0, 0, NAV_WAYPOINT) };
     assert_flown(&[low], &["takeoff", "goto 0 0 0.3 0"]);
     let elsewhere = Item { z: 1.0, ..item(0, RELATIVE, NAV_WAYPOINT) };
-    assert_problem(&[elsewhere], result::INVALID_PARAM5_X, "outside the fence");
+    assert_problem(&[elsewhere], result::INVALID_PARAM5_X, "beyond the fence");
+}
+
+#[test]
+fn a_straight_way_that_leaves_a_polygon_is_refused() {
+    let corners_m = [[-2.0, -2.0], [1.0, -2.0], [1.0, 1.0], [4.0, 1.0], [4.0, 4.0], [-2.0, 4.0]];
+    let rules =
+        Rules { fence: FlightLimits::new(Border::polygon(&corners_m).unwrap(), 0.3, 3.0), ..RULES };
+    let there = at(NAV_WAYPOINT, 3, 2, 1.0);
+    let direct = [take_off(), at(NAV_WAYPOINT, 0, -1, 1.0), there];
+    let problem = translated_by(&direct, &rules).unwrap_err();
+    assert_eq!((problem.item, problem.result), (2, result::INVALID_PARAM5_X));
+    assert!(problem.reason.contains("the straight way"), "{problem}");
+    let around = [take_off(), at(NAV_WAYPOINT, 0, -1, 1.0), at(NAV_WAYPOINT, 0, 2, 1.0), there];
+    assert!(translated_by(&around, &rules).is_ok());
+    let outside = translated_by(&[take_off(), at(NAV_WAYPOINT, 2, 0, 1.0)], &rules).unwrap_err();
+    assert!(outside.reason.contains("1.00 m outside the fence"), "{outside}");
 }
 
 #[test]

@@ -116,14 +116,18 @@ def test_a_count_of_none_clears(station):
     assert download(station) == []
 
 
-def test_fence_and_rally_are_not_there(station):
+def test_the_fence_is_read_and_not_changed_and_rally_points_are_not_there(station):
     keep_old(station)
-    for kind in (1, 2):
-        assert download(station, kind) == []
+    fence, = download(station, 1)
+    # A circle of inclusion around the start.
+    assert (fence.command, fence.mission_type, fence.x, fence.y) == (5003, 1, *flying.to_1e7(0.0, 0.0)), fence
+    near(fence.param1, 10.0, 1e-6, "the radius")
+    assert download(station, 2) == []
+    for kind, answer in ((1, plans.DENIED), (2, plans.UNSUPPORTED)):
         asked_s = time.monotonic()
         plans.count(station, 3, kind)
         refused = station.wait("MISSION_ACK", 1, since_s=asked_s)
-        assert (refused.type, refused.mission_type) == (plans.UNSUPPORTED, kind), refused
+        assert (refused.type, refused.mission_type) == (answer, kind), refused
     check_kept(station, OLD)
 
 
