@@ -210,6 +210,7 @@ pub struct Estimator {
     uncertainty: Uncertainty,
     /// Since when the altitude is that of a drone on the floor although it follows its sticks.
     low_since_s: Option<f64>,
+    airborne_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
     world: Box<World>,
@@ -231,6 +232,8 @@ const MAX_LATENESS_S: f64 = 0.3;
 const ALTITUDE_INTERVAL_S: f64 = 0.05;
 /// Below this height a drone that takes off or lands does not hold its position yet.
 const CLEAR_OF_GROUND_M: f64 = 0.4;
+/// Time after which a take-off is clear of the ground.
+const TAKE_OFF_S: f64 = 3.0;
 /// A drone that follows its sticks does not fly this low: it is on the floor, or its altitude is wrong.
 const ON_FLOOR_M: f64 = 0.1;
 /// Time in which an order shows in the attitude, also through a link that delays it.
@@ -260,6 +263,7 @@ impl Estimator {
             noise: NoiseOfAll::default(),
             uncertainty: Uncertainty::default(),
             low_since_s: None,
+            airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
             world: Box::new(World::new(config.tags.as_ref())),
@@ -319,10 +323,16 @@ impl Estimator {
 
         // Not by one echo, which may be wrong.
         let is_low = self.estimate.above_floor_m < CLEAR_OF_GROUND_M;
-        // Near the ground the sensors of a drone that takes off or lands may have nothing to measure, however long its
-        // motors need.
+        // Near the ground a drone that takes off or lands may have nothing to measure: its flow however long the motors need,
+        // the others until it has lifted off.
         let rests = sample.autonomous && is_low;
-        let repeated = self.repetitions.watch(arrival_s, sample).filter(|_| !rests);
+        let airborne_since_s = *self.airborne_since_s.get_or_insert(arrival_s);
+        if !sample.airborne {
+            self.airborne_since_s = None;
+        }
+        let takes_off = arrival_s - airborne_since_s < TAKE_OFF_S;
+        let may_rest = |quantity| rests && (takes_off || quantity == Quantity::Velocity);
+        let repeated = self.repetitions.watch(arrival_s, sample, may_rest);
         // What has summed up began before.
         let summed_up = |it: Evidence| Evidence { since_s: it.since_s - ENOUGH_S, ..it };
         let stepped = [(turned, Quantity::Heading), (floor_stepped, Quantity::Altitude)];
@@ -523,7 +533,6 @@ impl Estimator {
                 self.identification.height(at_s, height_m, &self.orders);
             }
             Echo::FloorStep => {
-                self.uncertainty.step_of_the_floor();
                 self.identification.forget_heights(at_s, &self.orders);
             }
             Echo::Good | Echo::First | Echo::Wrong => {}
@@ -668,7 +677,8 @@ impl Estimator {
 
     /// Standard deviation of the height.
     pub fn vertical_deviation_m(&self, now: Duration) -> f64 {
-        self.uncertainty.vertical_m(self.silence_s(now)).hypot(self.altitude.disputed_m())
+        let order = self.orders.at(now.as_secs_f64());
+        self.altitude.deviation_m(self.silence_s(now), order)
     }
 
     /// Silence on the ground adds no uncertainty.
@@ -707,7 +717,7 @@ impl Estimator {
         self.last_velocity_m_s = None;
         self.velocity_gate = VelocityGate::default();
         self.altitude_at = None;
-        self.uncertainty.handle_restart();
+        self.altitude.handle_restart();
         self.beliefs = Beliefs::new();
         self.repetitions = Repetitions::default();
         self.response = Response::new();

@@ -26,8 +26,14 @@ struct Repetition {
 }
 
 impl Repetitions {
-    /// Adds a packet that arrived at a time. Returns a quantity that repeats its value for too long, and since when.
-    pub(crate) fn watch(&mut self, at_s: f64, sample: &Sample) -> Option<(Quantity, f64)> {
+    /// Adds a packet that arrived at a time. Returns a quantity that repeats its value for too long, and since when, of those
+    /// that may not rest.
+    pub(crate) fn watch(
+        &mut self,
+        at_s: f64,
+        sample: &Sample,
+        may_rest: impl Fn(Quantity) -> bool,
+    ) -> Option<(Quantity, f64)> {
         let values = [
             (Quantity::Velocity, sample.velocity_right_m_s),
             (Quantity::Velocity, sample.velocity_forward_m_s),
@@ -42,7 +48,7 @@ impl Repetitions {
             let is_flow = quantity == Quantity::Velocity;
             let patience_s = if is_flow { NOISY_S } else { QUIET_S };
             let lasts = at_s - repetition.since_s >= patience_s && repetition.count >= PACKETS;
-            if lasts {
+            if lasts && !may_rest(quantity) {
                 repeated = repeated.or(Some((quantity, repetition.since_s)));
             }
         }
@@ -89,7 +95,7 @@ mod tests {
     ) -> Option<(u32, Quantity, f64)> {
         let mut repetitions = Repetitions::default();
         packets.into_iter().find_map(|packet| {
-            let found = repetitions.watch(PACKET_S * f64::from(packet), &sample(packet));
+            let found = repetitions.watch(PACKET_S * f64::from(packet), &sample(packet), |_| false);
             found.map(|(quantity, since_s)| (packet, quantity, since_s))
         })
     }

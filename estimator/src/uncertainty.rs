@@ -17,15 +17,6 @@ const UNSEEN_M_S2: f64 = 1.2;
 const ALONE_M_S: f64 = 0.5;
 /// Limit up to which a rejected velocity counts; a larger one is hardly that of a drone.
 const MAX_DISPUTED_M_S: f64 = 1.2;
-/// Standard deviation of the climb while nothing is received.
-const UNSEEN_CLIMB_M_S: f64 = 0.3;
-/// Standard deviation of a height.
-const HEIGHT_M: f64 = 0.015;
-/// Standard deviation of the height after each restart: the first altitudes after it may be old, and what follows
-/// them looks like another floor.
-const RESTART_M: f64 = 0.25;
-/// Standard deviation of the height after each step of the floor.
-const FLOOR_STEP_M: f64 = 0.05;
 
 /// Standard deviation of the position after a time in which only this speed and its change are known.
 fn unseen_m(unseen_s: f64, speed_m_s: f64, change_m_s: f64) -> f64 {
@@ -43,8 +34,6 @@ pub(crate) struct Uncertainty {
     unseen_m2: f64,
     /// Distance flown if the rejected velocities were right after all.
     disputed_m: f64,
-    floor_steps: u32,
-    restarts: u32,
 }
 
 impl Uncertainty {
@@ -69,22 +58,6 @@ impl Uncertainty {
     /// Variance of the position on each axis from motion that was not measured or was rejected.
     pub(crate) fn unmeasured_m2(&self) -> f64 {
         self.unseen_m2 + self.disputed_m * self.disputed_m
-    }
-
-    /// The drone has restarted, or old packets are taken for those of a restarted one.
-    pub(crate) fn handle_restart(&mut self) {
-        self.restarts += 1;
-    }
-
-    pub(crate) fn step_of_the_floor(&mut self) {
-        self.floor_steps += 1;
-    }
-
-    /// Standard deviation of the height.
-    pub(crate) fn vertical_m(&self, silence_s: f64) -> f64 {
-        let steps_m = FLOOR_STEP_M * f64::from(self.floor_steps).sqrt();
-        let restarts_m = RESTART_M * f64::from(self.restarts).sqrt();
-        HEIGHT_M.hypot(steps_m).hypot(restarts_m).hypot(UNSEEN_CLIMB_M_S * silence_s)
     }
 }
 
@@ -130,17 +103,5 @@ mod tests {
         let disputed_m: f64 = 0.5 * 0.8 + 0.5 * MAX_DISPUTED_M_S;
         let unseen_m2 = 0.15_f64.powi(2) + 0.3_f64.powi(2);
         assert_near(uncertainty.unmeasured_m2(), unseen_m2 + disputed_m.powi(2));
-    }
-
-    #[test]
-    fn a_height_is_as_good_as_its_echo_until_the_floor_steps_or_silence_begins() {
-        let mut uncertainty = Uncertainty::default();
-        assert_near(uncertainty.vertical_m(0.0), HEIGHT_M);
-        assert_near(uncertainty.vertical_m(2.0), HEIGHT_M.hypot(0.6));
-        (0..4).for_each(|_| uncertainty.step_of_the_floor());
-        assert_near(uncertainty.vertical_m(0.0), HEIGHT_M.hypot(2.0 * FLOOR_STEP_M));
-        let mut restarted = Uncertainty::default();
-        (0..4).for_each(|_| restarted.handle_restart());
-        assert_near(restarted.vertical_m(0.0), HEIGHT_M.hypot(2.0 * RESTART_M));
     }
 }

@@ -7,7 +7,7 @@ use crate::orders::Order;
 use crate::sensor::{GATE, ULTRASOUND_M};
 use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix3, Vector3};
 
 /// Height above the floor at the start, and climb.
 #[derive(Debug, Clone, Copy, Default)]
@@ -53,19 +53,51 @@ pub(crate) enum Echo {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct AltitudeFilter {
     state: Option<Vertical>,
-    /// Covariance of the height, in m and m/s.
-    covariance: Matrix2<f64>,
+    /// Height of the floor below above the floor at the start.
+    floor_m: f64,
+    /// Covariance of height, climb and floor, in m and m/s.
+    covariance: Matrix3<f64>,
     /// The first height of a drone that was already flying, not confirmed by a second one: it may be a wrong
     /// echo.
     unconfirmed: bool,
-    /// Height of the floor below above the floor at the start.
-    floor_m: f64,
-    /// Number of consecutive rejected heights that agree with the first of them, and that one relative to the expected one:
-    /// what moves away from it is no step.
-    rejected: u32,
-    rejected_by_m: f64,
-    /// The first of them, relative to the floor at the start.
-    rejected_m: f64,
+    /// What the last accepted height differed by from the corrected one.
+    residual_m: f64,
+    rejected: Rejected,
+}
+
+/// Consecutive rejected heights, each of which agrees with the one before.
+#[derive(Debug, Clone, Copy, Default)]
+struct Rejected {
+    count: u32,
+    /// How fast the first one moved away from the expected one, and the time since then.
+    jumped_m_s: f64,
+    for_s: f64,
+    /// The first and the last one relative to the expected one, and the last one relative to the floor at the start.
+    first_by_m: f64,
+    by_m: f64,
+    last_m: f64,
+}
+
+impl Rejected {
+    /// Whether they moved on about as fast as they began to.
+    fn is_motion(&self) -> bool {
+        (self.by_m - self.first_by_m) * self.jumped_m_s.signum()
+            > self.for_s * self.jumped_m_s.abs() / 2.0
+    }
+}
+
+/// Standard deviation of the climb that an order asks for which the drone, perhaps, has not received.
+const UNHEARD_M_S: f64 = 0.9;
+
+/// What is measured: the height above the floor below.
+const ABOVE_FLOOR: Vector3<f64> = Vector3::new(1.0, 0.0, -1.0);
+
+/// Covariance of what an order does to the height and the climb that the drone has or has not received for a time.
+fn unheard(time_s: f64) -> Matrix3<f64> {
+    let lag_s = Airframe::default().climb_lag_s;
+    let followed = 1.0 - (-time_s / lag_s).exp();
+    let changed = UNHEARD_M_S * Vector3::new(time_s - lag_s * followed, followed, 0.0);
+    changed * changed.transpose()
 }
 
 impl AltitudeFilter {
@@ -74,8 +106,6 @@ impl AltitudeFilter {
     const STEERED_M_S: f64 = 0.1;
     /// ...and while it moves autonomously.
     const BY_ITSELF_M_S: f64 = 0.3;
-    /// Standard deviation of the climb that an order asks for which the drone, perhaps, has not received.
-    const UNHEARD_M_S: f64 = 0.9;
     /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
     const LIKELIER: f64 = 3.0;
     /// Number of agreeing heights that make a step of the floor.
@@ -84,6 +114,9 @@ impl AltitudeFilter {
     /// next height agrees: the first may be a wrong echo. They agree in their heights or in their differences to the
     /// expected ones: the drone may hold its height, or move as expected.
     const AGREEMENT_M: f64 = GATE * ULTRASOUND_M;
+    /// Standard deviation of height and floor together after a restart: the first altitudes after it may be old, and what
+    /// follows them looks like another floor.
+    const RESTART_M: f64 = 0.25;
 
     /// The state at the last measurement; at rest on the floor before the first.
     pub(crate) fn state(&self) -> Vertical {
@@ -110,14 +143,7 @@ impl AltitudeFilter {
         if step_s <= 0.0 {
             return Echo::Good;
         }
-        let disturbance_m_s = match order {
-            Order::Sticks(_) => Self::STEERED_M_S,
-            Order::ByItself => Self::BY_ITSELF_M_S,
-        };
-        let moved = Matrix2::new(1.0, step_s, 0.0, 1.0);
-        self.covariance = moved * self.covariance * moved.transpose();
-        self.disturb(disturbance_m_s, step_s);
-        self.unheard((step_s - USUAL_STEP_S).max(0.0));
+        self.covariance = self.covariance_after(step_s, order);
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
         if surprise_m.abs() <= Self::AGREEMENT_M {
             self.accept(surprise_m, expected);
@@ -126,75 +152,98 @@ impl AltitudeFilter {
         if self.unconfirmed {
             return self.begin(altitude_m);
         }
-        self.reject(surprise_m, expected)
+        self.reject(surprise_m, expected, step_s)
     }
 
-    /// Adds what a disturbance has done to the climb, and by it to the height, in a time.
-    fn disturb(&mut self, change_m_s: f64, time_s: f64) {
-        let Self { covariance, .. } = self;
-        let (once, twice) = (time_s / 2.0, time_s * time_s / 3.0);
-        *covariance += change_m_s * change_m_s * time_s * Matrix2::new(twice, once, once, 1.0);
-    }
-
-    /// Adds what an order does to the climb, and by it to the height, that the drone has or has not received for a time.
-    fn unheard(&mut self, time_s: f64) {
-        let lag_s = Airframe::default().climb_lag_s;
-        let followed = 1.0 - (-time_s / lag_s).exp();
-        let changed = Self::UNHEARD_M_S * Vector2::new(time_s - lag_s * followed, followed);
-        self.covariance += changed * changed.transpose();
+    /// The covariance after a time without a height: with what disturbances have done to the climb, and by it to the height,
+    /// and with what an order does that the drone has or has not received for the time beyond the usual.
+    fn covariance_after(&self, step_s: f64, order: Order) -> Matrix3<f64> {
+        let disturbed_m_s = match order {
+            Order::Sticks(_) => Self::STEERED_M_S,
+            Order::ByItself => Self::BY_ITSELF_M_S,
+        };
+        let moved = Matrix3::new(1.0, step_s, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+        let (once, twice) = (step_s / 2.0, step_s * step_s / 3.0);
+        let disturbed = Matrix3::new(twice, once, 0.0, once, 1.0, 0.0, 0.0, 0.0, 0.0);
+        moved * self.covariance * moved.transpose()
+            + disturbed_m_s * disturbed_m_s * step_s * disturbed
+            + unheard((step_s - USUAL_STEP_S).max(0.0))
     }
 
     /// Variance of the difference between a height and the expected one.
     fn surprise_m2(&self) -> f64 {
-        self.covariance[(0, 0)] + ULTRASOUND_M * ULTRASOUND_M
+        ABOVE_FLOOR.dot(&(self.covariance * ABOVE_FLOOR)) + ULTRASOUND_M * ULTRASOUND_M
     }
 
     fn accept(&mut self, surprise_m: f64, expected: Vertical) {
-        let gain = self.covariance.column(0) / self.surprise_m2();
-        self.covariance -= gain * self.covariance.row(0);
+        let gain = self.covariance * ABOVE_FLOOR / self.surprise_m2();
+        self.covariance -= gain * (ABOVE_FLOOR.transpose() * self.covariance);
+        let correction = gain * surprise_m;
         self.state = Some(Vertical {
-            height_m: expected.height_m + gain.x * surprise_m,
-            climb_m_s: expected.climb_m_s + gain.y * surprise_m,
+            height_m: expected.height_m + correction.x,
+            climb_m_s: expected.climb_m_s + correction.y,
         });
-        self.rejected = 0;
+        self.floor_m += correction.z;
+        self.residual_m = surprise_m - ABOVE_FLOOR.dot(&correction);
+        self.rejected = Rejected::default();
         self.unconfirmed = false;
     }
 
     /// A height far from the expected one: a wrong echo, unless others agree with it.
-    fn reject(&mut self, surprise_m: f64, expected: Vertical) -> Echo {
+    fn reject(&mut self, surprise_m: f64, expected: Vertical, step_s: f64) -> Echo {
         let height_m = expected.height_m + surprise_m;
-        let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M
-            || (height_m - self.rejected_m).abs() <= Self::AGREEMENT_M;
-        if self.rejected == 0 || !agrees {
-            self.rejected = 0;
-            (self.rejected_by_m, self.rejected_m) = (surprise_m, height_m);
-        }
-        self.rejected += 1;
+        let before = self.rejected;
+        let agrees = (surprise_m - before.by_m).abs() <= Self::AGREEMENT_M
+            || (height_m - before.last_m).abs() <= Self::AGREEMENT_M;
+        let last = Rejected { by_m: surprise_m, last_m: height_m, ..before };
+        self.rejected = if before.count > 0 && agrees {
+            Rejected { count: before.count + 1, for_s: before.for_s + step_s, ..last }
+        } else {
+            let jumped_m_s = (surprise_m - self.residual_m) / step_s;
+            Rejected { count: 1, for_s: 0.0, first_by_m: surprise_m, jumped_m_s, ..last }
+        };
         self.state = Some(expected);
-        if self.rejected > 1 && surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt() {
+        let is_climb = surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt();
+        if self.rejected.count > 1 && is_climb {
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
-        if self.rejected < Self::AGREEING {
+        if self.rejected.count < Self::AGREEING {
             return Echo::Wrong;
         }
-        self.rejected = 0;
-        self.floor_m -= surprise_m;
+        let surprise_m2 = surprise_m * surprise_m;
+        if self.rejected.is_motion() {
+            // As no order explains that it has received.
+            self.covariance += unheard(self.rejected.for_s);
+            self.covariance[(0, 0)] += surprise_m2;
+            self.accept(surprise_m, expected);
+            return Echo::Good;
+        }
+        // From here on the height is as uncertain as it was, however well that above the floor is measured.
+        self.covariance[(2, 2)] += surprise_m2;
+        self.accept(surprise_m, expected);
         Echo::FloorStep
     }
 
-    /// Difference between the newest heights and the expected one while it is undecided which is right.
-    pub(crate) fn disputed_m(&self) -> f64 {
-        if self.rejected > 0 { self.rejected_by_m.abs() } else { 0.0 }
+    /// Standard deviation of the height a time after the last one.
+    pub(crate) fn deviation_m(&self, silence_s: f64, order: Order) -> f64 {
+        self.covariance_after(silence_s, order)[(0, 0)].sqrt().hypot(self.rejected.by_m)
+    }
+
+    /// The drone has restarted, or old packets are taken for those of a restarted one.
+    pub(crate) fn handle_restart(&mut self) {
+        let both_m = Vector3::new(Self::RESTART_M, 0.0, Self::RESTART_M);
+        self.covariance += both_m * both_m.transpose();
     }
 
     fn begin(&mut self, altitude_m: f64) -> Echo {
-        self.unconfirmed = true;
-        self.covariance = Matrix2::from_diagonal(&Vector2::new(
-            ULTRASOUND_M * ULTRASOUND_M,
-            Self::BY_ITSELF_M_S * Self::BY_ITSELF_M_S,
-        ));
-        self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
+        let deviations = Vector3::new(ULTRASOUND_M, Self::BY_ITSELF_M_S, 0.0);
+        *self = Self {
+            state: Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 }),
+            covariance: Matrix3::from_diagonal(&deviations.component_mul(&deviations)),
+            unconfirmed: true,
+            ..Self::default()
+        };
         Echo::First
     }
 

@@ -112,15 +112,35 @@ fn frozen_at_s(flight: &mut Flight) -> Option<f64> {
 }
 
 #[test]
-fn sensors_may_hang_near_the_ground_while_a_drone_moves_by_itself() {
-    // However long its motors need; anything else has the usual patience of the flow.
+fn sensors_may_hang_while_a_drone_takes_off_by_itself() {
+    // Three seconds; anything else has the usual patience of the flow.
     let patience_s = 0.4375;
-    assert_eq!(frozen_at_s(&mut taking_off(Order::ByItself, 0.3)), None);
+    assert_eq!(frozen_at_s(&mut taking_off(Order::ByItself, 0.3)), Some(TAKE_OFF_S));
     assert_eq!(frozen_at_s(&mut taking_off(Order::ByItself, 0.5)), Some(patience_s));
     let at_limit = &mut taking_off(Order::ByItself, CLEAR_OF_GROUND_M);
     assert_eq!(frozen_at_s(at_limit), Some(patience_s));
     let by_sticks = sticks(Sticks::default());
     assert_eq!(frozen_at_s(&mut taking_off(by_sticks, 0.3)), Some(patience_s));
+    // Each take-off has its time.
+    let mut again = taking_off(Order::ByItself, 0.3);
+    frozen_at_s(&mut again);
+    again.shown.airborne = false;
+    again.fly(80);
+    assert_eq!(again.estimator.trust(), Trust::Sound);
+    again.shown.airborne = true;
+    assert_eq!(frozen_at_s(&mut again), Some(TAKE_OFF_S));
+    // The flow alone may have nothing to see for as long as the motors need.
+    let mut flow = taking_off(Order::ByItself, 0.3);
+    let rattles = |flow: &mut Flight| {
+        let wobble = 0.001 * f64::from(flow.packet % 7);
+        let arrival = flow.now();
+        let tilt = Sample { roll_deg: wobble, pitch_deg: -wobble, yaw_deg: wobble, ..flow.shown };
+        flow.estimator.order_sent(arrival, flow.order);
+        flow.estimator.update(&Sample { arrival, altitude_m: 0.3 + wobble, ..tilt });
+        flow.packet += 1;
+        flow.estimator.trust()
+    };
+    assert!((0..100).all(|_| rattles(&mut flow) == Trust::Sound));
 }
 
 #[test]

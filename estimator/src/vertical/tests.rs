@@ -46,6 +46,11 @@ fn wrong_echoes_are_ignored() {
     assert!((filter.state().height_m - 1.0).abs() < 0.01);
 }
 
+/// Standard deviation of the height that was measured now.
+fn now_m(filter: &AltitudeFilter) -> f64 {
+    filter.deviation_m(0.0, Order::Sticks(Sticks::default()))
+}
+
 /// One echo from a filter that has received nothing for `gap_s`.
 fn after_a_gap(filter: &mut AltitudeFilter, gap_s: f64, altitude_m: f64) -> Echo {
     let expected = filter.state();
@@ -57,10 +62,10 @@ fn a_wrong_echo_behind_a_gap_is_ignored_too() {
     let mut filter = AltitudeFilter::default();
     run(&mut filter, [1.0; 50]);
     assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
-    assert!((filter.disputed_m() - 0.4).abs() < 0.01, "it is still undecided");
+    assert!(now_m(&filter) > 0.39, "it is still undecided");
     assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
     assert!((filter.state().height_m - 1.0).abs() < 0.01);
-    assert!(filter.disputed_m().abs() < 1e-9);
+    assert!(now_m(&filter) < ULTRASOUND_M);
 }
 
 #[test]
@@ -181,11 +186,12 @@ fn the_covariance_is_that_of_a_climb_with_white_disturbances() {
     let both_m2_s = 0.1 * begins_m2_s2 + changed_m2_s3 * 0.01 / 2.0;
     let climbs_m2_s2 = begins_m2_s2 + changed_m2_s3 * 0.1;
     let surprise_m2 = moved_m2 + noise_m2;
-    let [[height, both], [same, climb]] = filter.covariance.data.0;
+    let [[height, both, _], [same, climb, _], floor] = filter.covariance.data.0;
     assert_near(height, moved_m2 * noise_m2 / surprise_m2);
     assert_near(both, both_m2_s * noise_m2 / surprise_m2);
     assert_near(same, both);
     assert_near(climb, climbs_m2_s2 - both_m2_s * both_m2_s / surprise_m2);
+    assert_eq!(floor, [0.0; 3], "the floor of the start");
 }
 
 #[test]
@@ -220,7 +226,9 @@ fn a_gap_explains_no_more_than_a_climb_through_it() {
         let mut next = || filter.correct(1.0 + off_m, still(1.0), 0.05, order);
         let echoes = [next(), next(), next(), next()];
         assert_eq!(echoes, [Echo::Wrong, Echo::Wrong, Echo::Wrong, Echo::FloorStep]);
-        assert_near(filter.above_floor_m(1.0), 1.0 + off_m);
+        let state = filter.state();
+        assert!((filter.above_floor_m(state.height_m) - 1.0 - off_m).abs() < 0.005);
+        assert!((state.height_m - 1.0).abs() < 0.02, "of 0.15 m a tenth may be a climb");
     }
 }
 
@@ -256,9 +264,64 @@ fn a_drone_that_stands_is_on_the_floor_of_the_start() {
     let mut filter = hovering(1.5);
     run(&mut filter, [0.8; 20]);
     filter.correct(3.0, still(1.5), 0.4, Order::ByItself);
-    assert!(filter.disputed_m() > 0.5);
+    assert!(now_m(&filter) > 0.5);
     filter.stand();
     assert_near(filter.above_floor_m(0.0), 0.0);
     assert_near(filter.state().height_m, 0.0);
-    assert_near(filter.disputed_m(), 0.0);
+    assert_near(now_m(&filter), 0.0);
+}
+
+/// What the drone does that has received other orders looks like a box at first.
+#[test]
+fn heights_that_move_on_as_fast_as_they_began_to_are_a_climb() {
+    let step_s = 0.05;
+    for climb_m_s in [0.3, 0.7, 1.2, -0.7] {
+        let (mut filter, mut worst_m) = (hovering(2.0), 0.0_f64);
+        for i in 1..30 {
+            let height_m = 2.0 + climb_m_s * step_s * f64::from(i);
+            let mut expected = filter.state();
+            expected.height_m += expected.climb_m_s * step_s;
+            let echo = filter.correct(height_m, expected, step_s, Order::ByItself);
+            assert_ne!(echo, Echo::FloorStep, "{climb_m_s} m/s");
+            let (off_m, told_m) = (filter.state().height_m - height_m, now_m(&filter));
+            worst_m = worst_m.max(off_m.abs() - 4.0 * told_m);
+        }
+        assert!(worst_m < 0.1, "{climb_m_s} m/s: {worst_m} m more than four deviations");
+        assert!((filter.state().height_m - 2.0 - climb_m_s * step_s * 29.0).abs() < 0.1);
+        assert_near(filter.above_floor_m(0.0), 0.0);
+    }
+}
+
+#[test]
+fn a_height_stays_as_uncertain_as_it_was_when_the_floor_stepped() {
+    let order = Order::Sticks(Sticks::default());
+    let mut filter = hovering(2.0);
+    let before_m = now_m(&filter);
+    run(&mut filter, [1.4; 100]);
+    let stepped_m = now_m(&filter);
+    assert!(stepped_m > before_m && stepped_m < 0.1, "{before_m}, {stepped_m}");
+    // That above the floor is as good as ever.
+    assert!(filter.surprise_m2().sqrt() < 1.5 * ULTRASOUND_M);
+    // After a second without packets it is a floor again, but what the drone has climbed meanwhile is not known well.
+    let mut filter = hovering(2.0);
+    let expected = filter.state();
+    filter.correct(4.5, expected, 1.0, order);
+    let echoes = run(&mut filter, [4.5; 50]);
+    assert_eq!(echoes[2], Echo::FloorStep);
+    assert!((0.1..0.4).contains(&now_m(&filter)), "{}", now_m(&filter));
+}
+
+#[test]
+fn silence_and_a_restart_make_a_height_uncertain() {
+    let order = Order::Sticks(Sticks::default());
+    let mut filter = hovering(1.0);
+    // Nearly the way of an unheard climb of 0.9 m/s with a lag of half a second.
+    let unheard_m = 0.9 * (1.9 - 0.5 * (1.0 - (-3.8_f64).exp()));
+    let silent_m = filter.deviation_m(2.0, order);
+    assert!((unheard_m..1.1 * unheard_m).contains(&silent_m), "{silent_m}");
+    let before_m = now_m(&filter);
+    filter.handle_restart();
+    assert_near(now_m(&filter), before_m.hypot(0.25));
+    run(&mut filter, [1.0; 20]);
+    assert!(now_m(&filter) > 0.2, "the floor may be another one");
 }
