@@ -60,6 +60,8 @@ pub(crate) struct AltitudeFilter {
     /// The first height of a drone that was already flying, not confirmed by a second one: it may be a wrong
     /// echo.
     unconfirmed: bool,
+    /// Variance that restarts have left to height and floor together, whatever is measured.
+    restarted_m2: f64,
     /// What the last accepted height differed by from the corrected one.
     residual_m: f64,
     rejected: Rejected,
@@ -69,20 +71,36 @@ pub(crate) struct AltitudeFilter {
 #[derive(Debug, Clone, Copy, Default)]
 struct Rejected {
     count: u32,
-    /// How fast the first one moved away from the expected one, and the time since then.
-    jumped_m_s: f64,
-    for_s: f64,
-    /// The first and the last one relative to the expected one, and the last one relative to the floor at the start.
-    first_by_m: f64,
+    /// Whether the first one may be a climb.
+    is_climb: bool,
+    /// The last one relative to the expected one, and to the floor at the start.
     by_m: f64,
     last_m: f64,
+    /// Time since the last accepted height, and sums over the rejected ones: of how far they are from it, relative to the
+    /// expected ones; of that times the time; and of the squares of the time.
+    for_s: f64,
+    sum_m: f64,
+    sum_m_s: f64,
+    sum_s2: f64,
 }
 
 impl Rejected {
-    /// Whether they moved on about as fast as they began to.
+    /// Whether a height is nearer to two rejected ones than to the expected one.
+    fn is_nearer_to(&self, surprise_m: f64) -> bool {
+        self.count > 1 && (surprise_m - self.by_m).abs() < surprise_m.abs()
+    }
+
+    fn add(&mut self, away_m: f64, step_s: f64) {
+        self.count += 1;
+        self.for_s += step_s;
+        self.sum_m += away_m;
+        self.sum_m_s += away_m * self.for_s;
+        self.sum_s2 += self.for_s * self.for_s;
+    }
+
+    /// Whether a motion since the last accepted height fits them better than a step (least squares).
     fn is_motion(&self) -> bool {
-        (self.by_m - self.first_by_m) * self.jumped_m_s.signum()
-            > self.for_s * self.jumped_m_s.abs() / 2.0
+        self.sum_m_s * self.sum_m_s / self.sum_s2 > self.sum_m * self.sum_m / f64::from(self.count)
     }
 }
 
@@ -91,6 +109,9 @@ const UNHEARD_M_S: f64 = 0.9;
 
 /// What is measured: the height above the floor below.
 const ABOVE_FLOOR: Vector3<f64> = Vector3::new(1.0, 0.0, -1.0);
+
+/// Covariance of height and floor that are moved together, by a metre.
+const TOGETHER: Matrix3<f64> = Matrix3::new(1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0);
 
 /// Covariance of what an order does to the height and the climb that the drone has or has not received for a time.
 fn unheard(time_s: f64) -> Matrix3<f64> {
@@ -103,9 +124,9 @@ fn unheard(time_s: f64) -> Matrix3<f64> {
 impl AltitudeFilter {
     /// What the climb does beside the model: standard deviation of its change in a second. While the drone follows the
     /// sticks...
-    const STEERED_M_S: f64 = 0.1;
+    const STEERED_M_S: f64 = 0.05;
     /// ...and while it moves autonomously.
-    const BY_ITSELF_M_S: f64 = 0.3;
+    const BY_ITSELF_M_S: f64 = 0.1;
     /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
     const LIKELIER: f64 = 3.0;
     /// Number of agreeing heights that make a step of the floor.
@@ -145,7 +166,7 @@ impl AltitudeFilter {
         }
         self.covariance = self.covariance_after(step_s, order);
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        if surprise_m.abs() <= Self::AGREEMENT_M {
+        if surprise_m.abs() <= Self::AGREEMENT_M && !self.rejected.is_nearer_to(surprise_m) {
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
@@ -195,16 +216,16 @@ impl AltitudeFilter {
         let before = self.rejected;
         let agrees = (surprise_m - before.by_m).abs() <= Self::AGREEMENT_M
             || (height_m - before.last_m).abs() <= Self::AGREEMENT_M;
-        let last = Rejected { by_m: surprise_m, last_m: height_m, ..before };
         self.rejected = if before.count > 0 && agrees {
-            Rejected { count: before.count + 1, for_s: before.for_s + step_s, ..last }
+            before
         } else {
-            let jumped_m_s = (surprise_m - self.residual_m) / step_s;
-            Rejected { count: 1, for_s: 0.0, first_by_m: surprise_m, jumped_m_s, ..last }
+            let is_climb = surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt();
+            Rejected { is_climb, ..Rejected::default() }
         };
+        self.rejected.add(surprise_m - self.residual_m, step_s);
+        (self.rejected.by_m, self.rejected.last_m) = (surprise_m, height_m);
         self.state = Some(expected);
-        let is_climb = surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt();
-        if self.rejected.count > 1 && is_climb {
+        if self.rejected.count > 1 && self.rejected.is_climb {
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
@@ -213,9 +234,9 @@ impl AltitudeFilter {
         }
         let surprise_m2 = surprise_m * surprise_m;
         if self.rejected.is_motion() {
-            // As no order explains that it has received.
-            self.covariance += unheard(self.rejected.for_s);
+            // As no order explains that it has received: with any climb.
             self.covariance[(0, 0)] += surprise_m2;
+            self.covariance[(1, 1)] += UNHEARD_M_S * UNHEARD_M_S;
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
@@ -232,15 +253,18 @@ impl AltitudeFilter {
 
     /// The drone has restarted, or old packets are taken for those of a restarted one.
     pub(crate) fn handle_restart(&mut self) {
-        let both_m = Vector3::new(Self::RESTART_M, 0.0, Self::RESTART_M);
-        self.covariance += both_m * both_m.transpose();
+        let restarted_m2 = Self::RESTART_M * Self::RESTART_M;
+        self.restarted_m2 += restarted_m2;
+        self.covariance += restarted_m2 * TOGETHER;
     }
 
     fn begin(&mut self, altitude_m: f64) -> Echo {
         let deviations = Vector3::new(ULTRASOUND_M, Self::BY_ITSELF_M_S, 0.0);
         *self = Self {
             state: Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 }),
-            covariance: Matrix3::from_diagonal(&deviations.component_mul(&deviations)),
+            covariance: Matrix3::from_diagonal(&deviations.component_mul(&deviations))
+                + self.restarted_m2 * TOGETHER,
+            restarted_m2: self.restarted_m2,
             unconfirmed: true,
             ..Self::default()
         };
@@ -249,7 +273,12 @@ impl AltitudeFilter {
 
     /// The drone stands on the floor, whatever the ultrasound measures there.
     pub(crate) fn stand(&mut self) {
-        *self = Self { state: Some(Vertical::default()), ..Self::default() };
+        *self = Self {
+            state: Some(Vertical::default()),
+            covariance: self.restarted_m2 * TOGETHER,
+            restarted_m2: self.restarted_m2,
+            ..Self::default()
+        };
     }
 }
 
