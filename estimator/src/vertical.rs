@@ -271,10 +271,12 @@ impl AltitudeFilter {
         Echo::First
     }
 
-    /// The drone stands on the floor, whatever the ultrasound measures there.
+    /// The drone stands on the floor, whatever the ultrasound measures there. The first height in the air is one above that
+    /// floor, however many packets were lost during the take-off.
     pub(crate) fn stand(&mut self) {
         *self = Self {
             state: Some(Vertical::default()),
+            unconfirmed: true,
             covariance: self.restarted_m2 * TOGETHER,
             restarted_m2: self.restarted_m2,
             ..Self::default()
