@@ -441,8 +441,13 @@ impl Estimator {
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
             tilt_rad: Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians),
         };
+        if !sample.airborne {
+            self.response.stand();
+            self.low_since_s = None;
+            return None;
+        }
         let by_sticks = self.orders.at(at_s) != Order::ByItself;
-        let is_low = by_sticks && sample.airborne && sample.altitude_m < ON_FLOOR_M;
+        let is_low = by_sticks && sample.altitude_m < ON_FLOOR_M;
         self.low_since_s = is_low.then(|| self.low_since_s.unwrap_or(at_s));
         let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ENOUGH_S);
         let unresponsive = self.response.watch(&measured, &self.orders, &self.config.limits);

@@ -124,9 +124,16 @@ impl Response {
 
     /// The drone moves autonomously: nothing is commanded.
     fn rest(&mut self, measured: &Measured) {
-        self.climb.rest(measured.altitude_m);
-        self.turn.rest(measured.yaw_deg);
+        self.climb.rest(Some(measured.altitude_m));
+        self.turn.rest(Some(measured.yaw_deg));
         self.yaw_deg = measured.yaw_deg;
+        self.axes.iter_mut().for_each(Axis::rest);
+    }
+
+    /// The drone stands, and may be anywhere when it is next seen to fly.
+    pub(crate) fn stand(&mut self) {
+        self.climb.rest(None);
+        self.turn.rest(None);
         self.axes.iter_mut().for_each(Axis::rest);
     }
 }

@@ -126,12 +126,12 @@ impl<const N: usize> Rate<N> {
     }
 
     /// The drone moves by itself, and measures a value.
-    pub(super) fn rest(&mut self, value: f64) {
+    pub(super) fn rest(&mut self, value: Option<f64>) {
         self.hypotheses = self.hypotheses.map(|its| Hypothesis::moving(its.lag_s, 0.0));
         self.asks = false;
         self.is_new = true;
         self.missing_for_s = 0.0;
-        self.last = Some(value);
+        self.last = value;
     }
 }
 

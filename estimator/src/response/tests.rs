@@ -266,3 +266,23 @@ fn longer_gaps_are_not_judged() {
     assert_eq!(found(MAX_GAP_S - 0.01), Some(Quantity::Altitude));
     assert_eq!(found(MAX_GAP_S + 0.01), None);
 }
+
+#[test]
+fn a_drone_that_stood_may_be_anywhere_when_it_is_next_seen_to_fly() {
+    let is_accused = |stands: bool| {
+        let (mut orders, mut response) = (Orders::new(Duration::ZERO), Response::new());
+        (0..40_u64).any(|i| {
+            let now = Duration::from_millis(PERIOD_MS * i);
+            orders.push(now, Order::Sticks(Sticks { gaz: 0.05, ..Sticks::default() }));
+            let at_s = now.as_secs_f64();
+            let height_m = if i < 20 { 0.1 } else { 0.9 };
+            let measured = Measured { altitude_m: height_m, ..still(at_s) };
+            if stands && i == 19 {
+                response.stand();
+                return false;
+            }
+            response.watch(&measured, &orders, &DroneLimits::default()).is_some()
+        })
+    };
+    assert!(is_accused(false) && !is_accused(true));
+}

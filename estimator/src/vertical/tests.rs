@@ -326,3 +326,15 @@ fn silence_and_a_restart_make_a_height_uncertain() {
     run(&mut filter, [1.0; 20]);
     assert!(now_m(&filter) > 0.2, "the floor may be another one");
 }
+
+/// The packets of the take-off may be lost.
+#[test]
+fn the_first_height_after_standing_is_one_above_the_floor_it_stood_on() {
+    let mut filter = hovering(1.5);
+    run(&mut filter, [0.8; 20]);
+    filter.stand();
+    assert_eq!(run(&mut filter, [0.9; 10])[0], Echo::First);
+    let height_m = filter.state().height_m;
+    assert!((height_m - 0.9).abs() < 0.01, "{height_m}");
+    assert_near(filter.above_floor_m(0.0), 0.0);
+}

@@ -107,8 +107,8 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "an altitude of the floor in flight",
         ESTIMATOR,
-        "sample.airborne && sample.altitude_m < ON_FLOOR_M;",
-        "sample.airborne && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
+        "by_sticks && sample.altitude_m < ON_FLOOR_M;",
+        "by_sticks && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
     ),
     without(
         "lateness",

@@ -30,8 +30,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "an altitude of the floor is believed",
         ESTIMATOR,
-        "sample.airborne && sample.altitude_m < ON_FLOOR_M;",
-        "sample.airborne && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
+        "by_sticks && sample.altitude_m < ON_FLOOR_M;",
+        "by_sticks && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
     ),
     mutant(
         "a disproved quantity is believed at once",

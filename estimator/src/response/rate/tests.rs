@@ -103,7 +103,7 @@ fn a_drone_whose_stick_is_at_rest_goes_back_to_where_it_was_released() {
 #[test]
 fn a_drone_begins_with_the_rate_that_it_has() {
     let mut axis = Rate::new(TOLERANCE, LAGS_S);
-    axis.rest(1.0);
+    axis.rest(Some(1.0));
     axis.follow(0.7, 0.05);
     axis.compare(0.97, 0.05, |metres| metres);
     for its in axis.hypotheses {
