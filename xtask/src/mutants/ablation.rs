@@ -35,7 +35,7 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "a value that repeats itself",
         REPETITION,
-        "if lasts {",
+        "if lasts && !may_rest(quantity) {",
         "if lasts && at_s < f64::MIN {",
     ),
     without(
@@ -71,7 +71,7 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "an unlikely echo",
         VERTICAL,
-        "if surprise_m.abs() <= Self::AGREEMENT_M {",
+        "if surprise_m.abs() <= Self::AGREEMENT_M && !self.rejected.is_nearer_to(surprise_m) {",
         "if surprise_m.abs() <= Self::AGREEMENT_M.max(f64::MAX) {",
     ),
     without(
