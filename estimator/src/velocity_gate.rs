@@ -27,6 +27,7 @@ pub(crate) struct VelocityGate {
 }
 
 /// The model's velocity before and after a step, (right, forward) in the world frame.
+#[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Foreseen<'a> {
     pub(crate) before_m_s: Vector2<f64>,

@@ -361,7 +361,7 @@ fn estimate_prediction_and_reference_are_all_of_the_world() {
     let (correction, bias_m_s) = (tags.filter.correction(), tags.filter.bias_m_s());
     let turned_deg = correction.heading_rad.to_degrees();
     assert!(bias_m_s.norm() > 0.005 && turned_deg.abs() > 0.5, "{correction:?}");
-    estimator.world = Box::new(World::new(None));
+    *estimator.world = World::new(None);
     let odometry = estimator.predicted(now);
     estimator.world = tags.clone();
     let world = estimator.predicted(now);
