@@ -191,7 +191,9 @@ fn the_covariance_is_that_of_a_climb_with_white_disturbances() {
     assert_near(both, both_m2_s * noise_m2 / surprise_m2);
     assert_near(same, both);
     assert_near(climb, climbs_m2_s2 - both_m2_s * both_m2_s / surprise_m2);
-    floor.into_iter().for_each(|of_the_start| assert_near(of_the_start, 0.0));
+    for of_the_start in floor {
+        assert_near(of_the_start, 0.0);
+    }
 }
 
 #[test]
