@@ -323,15 +323,19 @@ impl Estimator {
 
         // Not by one echo, which may be wrong.
         let is_low = self.estimate.above_floor_m < CLEAR_OF_GROUND_M;
-        // Near the ground a drone that takes off or lands may have nothing to measure: its flow however long the motors need,
-        // the others until it has lifted off.
+        // Near the ground a drone that takes off or lands may see nothing: its flow however long the motors need, its ultrasound
+        // until it has lifted off. A frozen one says for ever that it does so.
         let rests = sample.autonomous && is_low;
         let airborne_since_s = *self.airborne_since_s.get_or_insert(arrival_s);
         if !sample.airborne {
             self.airborne_since_s = None;
         }
         let takes_off = arrival_s - airborne_since_s < TAKE_OFF_S;
-        let may_rest = |quantity| rests && (takes_off || quantity == Quantity::Velocity);
+        let may_rest = |quantity| match quantity {
+            Quantity::Velocity => rests,
+            Quantity::Altitude => rests && takes_off,
+            Quantity::Heading | Quantity::Attitude => false,
+        };
         let repeated = self.repetitions.watch(arrival_s, sample, may_rest);
         // What has summed up began before.
         let summed_up = |it: Evidence| Evidence { since_s: it.since_s - ENOUGH_S, ..it };

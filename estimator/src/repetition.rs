@@ -8,8 +8,10 @@ const NOISY_S: f64 = 0.4;
 /// The altitude has a resolution of one millimetre and the attitude of a thousandth of a degree, so in a
 /// quiet hover they may repeat a value for a while.
 const QUIET_S: f64 = 1.0;
-/// Least number of packets that repeat the value, because loss makes the time between packets long.
+/// Least number of packets that repeat the value, because loss makes the time between packets long; and that repeat all values,
+/// which no two sensors do by chance.
 const PACKETS: u32 = 5;
+const PACKETS_OF_ALL: u32 = 2;
 
 /// The repetitions of all values in navdata.
 #[derive(Debug, Clone, Default)]
@@ -42,12 +44,16 @@ impl Repetitions {
             (Quantity::Attitude, sample.roll_deg),
             (Quantity::Attitude, sample.pitch_deg),
         ];
-        let mut repeated = None;
-        for ((quantity, value), repetition) in values.into_iter().zip(&mut self.values) {
+        for ((_, value), repetition) in values.into_iter().zip(&mut self.values) {
             repetition.watch(at_s, value, sample.airborne);
+        }
+        let all_repeat = self.values.iter().all(|repetition| repetition.count >= PACKETS_OF_ALL);
+        let packets = if all_repeat { PACKETS_OF_ALL } else { PACKETS };
+        let mut repeated = None;
+        for ((quantity, _), repetition) in values.into_iter().zip(&self.values) {
             let is_flow = quantity == Quantity::Velocity;
             let patience_s = if is_flow { NOISY_S } else { QUIET_S };
-            let lasts = at_s - repetition.since_s >= patience_s && repetition.count >= PACKETS;
+            let lasts = at_s - repetition.since_s >= patience_s && repetition.count >= packets;
             if lasts && !may_rest(quantity) {
                 repeated = repeated.or(Some((quantity, repetition.since_s)));
             }
@@ -130,6 +136,12 @@ mod tests {
         let still = |packet| Sample { velocity_right_m_s: 0.3, ..flying(packet) };
         let packet = noticed((0..100).step_by(4), still).map(|(packet, ..)| packet);
         assert_eq!(packet, Some(20));
+    }
+
+    #[test]
+    fn a_packet_in_which_nothing_changes_is_noticed_with_the_second() {
+        let packet = noticed((0..100).step_by(5), |_| flying(3)).map(|(packet, ..)| packet);
+        assert_eq!(packet, Some(10));
     }
 
     #[test]
