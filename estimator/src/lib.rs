@@ -373,6 +373,7 @@ impl Estimator {
             yaw_deg,
             tilt: (attitude_s, Vector2::new(sample.roll_deg, sample.pitch_deg)),
             height: (height_s, self.estimate.above_floor_m),
+            echo_m: sample.altitude_m,
             airborne: sample.airborne,
             unseen_m2: self.uncertainty.unmeasured_m2(),
         });

@@ -125,6 +125,7 @@ mod tests {
             yaw_deg: 0.0,
             tilt: (at_s + 0.04, Vector2::new(at_s, 5.0 * at_s)),
             height: (at_s + 0.02, 1.0 + at_s),
+            echo_m: 1.0 + at_s,
             airborne: true,
             unseen_m2: 0.0,
         }

@@ -181,6 +181,8 @@ pub(crate) struct OdometryStep {
     pub(crate) tilt: (f64, Vector2<f64>),
     /// Time and value of the height above the floor.
     pub(crate) height: (f64, f64),
+    /// The newest echo, which may be a wrong one.
+    pub(crate) echo_m: f64,
     pub(crate) airborne: bool,
     /// Total variance from motion that was not measured.
     pub(crate) unseen_m2: f64,
@@ -244,8 +246,9 @@ impl World {
         }
         let unseen_m2 = (step.unseen_m2 - self.unseen_m2).max(0.0);
         self.unseen_m2 = step.unseen_m2;
-        // Before it lifts off, a drone with its motors running measures nothing, and does not move.
-        self.has_risen |= step.airborne && step.height.1 > STANDS_M;
+        // Before it lifts off, a drone with its motors running measures nothing, and does not move. After a gap its height may not
+        // be believed yet.
+        self.has_risen |= step.airborne && step.height.1.max(step.echo_m) > STANDS_M;
         if self.has_risen {
             self.filter.doubt_place(unseen_m2);
         }

@@ -64,6 +64,7 @@ impl Drone {
             yaw_deg: YAW_DEG,
             tilt: (self.now_s - 0.02, Vector2::zeros()),
             height: (self.now_s - 0.04, self.height_m),
+            echo_m: self.height_m,
             airborne: self.airborne,
             unseen_m2: self.unseen_m2,
         }
@@ -216,6 +217,18 @@ fn motion_that_was_not_measured_is_doubted_once_and_only_in_flight() {
         drone.tags.fly(&drone.step());
         assert_near(drone.tags.filter.place_variance_m2(), before_m2 + 0.35 * doubted);
     }
+}
+
+/// The packets of a take-off may be lost: the first height after them may not be believed yet.
+#[test]
+fn motion_during_a_take_off_that_was_not_measured_is_doubted_with_the_first_echo() {
+    let mut drone = Drone::new(&surveyed());
+    drone.height_m = 0.0;
+    drone.tags.fly(&drone.step());
+    let before_m2 = drone.tags.filter.place_variance_m2();
+    drone.unseen_m2 = 3.4;
+    drone.tags.fly(&OdometryStep { echo_m: 0.8, ..drone.step() });
+    assert_near(drone.tags.filter.place_variance_m2(), before_m2 + 3.4);
 }
 
 #[test]
