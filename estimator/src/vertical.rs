@@ -57,8 +57,7 @@ pub(crate) struct AltitudeFilter {
     floor_m: f64,
     /// Covariance of height, climb and floor, in m and m/s.
     covariance: Matrix3<f64>,
-    /// The first height of a drone that was already flying, not confirmed by a second one: it may be a wrong
-    /// echo.
+    /// The first height in the air, not confirmed by a second one: it may be a wrong echo.
     unconfirmed: bool,
     /// Variance that restarts have left to height and floor together, whatever is measured.
     restarted_m2: f64,
