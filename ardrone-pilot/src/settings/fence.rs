@@ -44,7 +44,7 @@ impl Fence {
                 "radius_m",
                 &[
                     " Largest horizontal distance of a target from the start. Metres. In its place `polygon_m = [[-2, -1], [2, -1], [0, 4]]`",
-                    " gives 3 to 64 corners of a polygon around the start: right and forward of it, in their order along the border.",
+                    " gives 3 to 32 corners of a polygon around the start: right and forward of it, in their order along the border.",
                 ],
             ),
         ],

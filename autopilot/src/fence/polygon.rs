@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
-/// Most corners of a polygon: as many as any outline of a room has, and few enough for each tick.
-pub const MAX_CORNERS: usize = 64;
+/// Most corners of a polygon: as many as any outline of a room has. The nearest place inside costs their third power: with these
+/// at most 0.04 ms of the tick, with twice as many 0.3 ms.
+pub const MAX_CORNERS: usize = 32;
 /// A corner is at most this far from the start, in metres, right or left and forward or back: as far as a circle may reach.
 const FURTHEST_M: f64 = 200.0;
 /// Least area in square metres: that of the smallest circle, of half a metre.
