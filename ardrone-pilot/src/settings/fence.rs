@@ -204,9 +204,9 @@ mod tests {
             let error = Settings::parse("my.toml", &text).unwrap_err().to_string();
             assert!(error.contains(place) && error.contains(said), "{fence}: {error}");
         }
-        let many = vec!["[0, 1]"; 65].join(", ");
+        let many = vec!["[0, 1]"; 33].join(", ");
         let error = Settings::parse("p", &format!("[fence]\npolygon_m = [{many}]")).unwrap_err();
-        assert!(error.to_string().contains("at most 64"), "{error}");
+        assert!(error.to_string().contains("at most 32"), "{error}");
         let error = Settings::parse("p", "[fence]\nradius_m = 0.4").unwrap_err();
         assert!(error.to_string().contains("fence.radius_m is 0.4"), "{error}");
     }
