@@ -49,7 +49,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "a gap lets any velocity in",
         VELOCITY_GATE,
         "let allowed_m_s = GATE * ",
-        "let allowed_m_s = 10.0 * gap_s + GATE * ",
+        "let allowed_m_s = 10.0 * (step_s - USUAL_STEP_S).max(0.0) + GATE * ",
     ),
     mutant(
         "a compass that hangs in a turn is believed",
