@@ -244,7 +244,7 @@ fn a_floor_is_agreed_on_by_heights_or_by_their_differences() {
         })
     };
     // The model climbs and the drone hovers over a table.
-    let hovers = [(2.0, 1.3), (2.06, 1.3), (2.12, 1.3), (2.18, 1.3)];
+    let hovers = [(2.0, 1.3), (2.15, 1.3), (2.3, 1.3), (2.45, 1.3)];
     assert_eq!(floor(hovers)[3], Echo::FloorStep);
     // Both climb.
     let climbs = [(2.0, 1.3), (2.2, 1.5), (2.4, 1.7), (2.6, 1.9)];
@@ -272,6 +272,22 @@ fn a_drone_that_stands_is_on_the_floor_of_the_start() {
     assert_near(filter.above_floor_m(0.0), 0.0);
     assert_near(filter.state().height_m, 0.0);
     assert_near(now_m(&filter), 0.0);
+}
+
+#[test]
+fn a_low_box_is_not_noise_because_one_of_its_echoes_is_near() {
+    let order = Order::Sticks(Sticks::default());
+    let mut filter = hovering(1.0);
+    let echoes = [0.88, 0.88, 0.91, 0.88].map(|m| filter.correct(m, still(1.0), 0.05, order));
+    assert_eq!(echoes, [Echo::Wrong, Echo::Wrong, Echo::Wrong, Echo::FloorStep]);
+}
+
+#[test]
+fn a_gap_after_a_jump_does_not_make_it_a_climb() {
+    let order = Order::Sticks(Sticks::default());
+    let mut filter = hovering(1.0);
+    assert_eq!(filter.correct(1.16, still(1.0), 0.05, order), Echo::Wrong);
+    assert_eq!(filter.correct(1.16, still(1.0), 0.6, order), Echo::Wrong);
 }
 
 /// What the drone does that has received other orders looks like a box at first.
@@ -327,6 +343,11 @@ fn silence_and_a_restart_make_a_height_uncertain() {
     assert_near(now_m(&filter), before_m.hypot(0.25));
     run(&mut filter, [1.0; 20]);
     assert!(now_m(&filter) > 0.2, "the floor may be another one");
+    // A drone that seems to stand may be another one that has restarted, heard late.
+    filter.stand();
+    assert_near(now_m(&filter), 0.25);
+    run(&mut filter, [1.0; 20]);
+    assert!(now_m(&filter) > 0.2);
 }
 
 /// The packets of the take-off may be lost.
