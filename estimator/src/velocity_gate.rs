@@ -15,6 +15,7 @@ const MODEL_SHARE: f64 = 0.2;
 const RETURN_SHARE: f64 = 0.5;
 /// Largest difference between measured and expected velocity beyond that, however it came about.
 const MAX_SURPRISE_M_S: f64 = 1.3;
+
 /// Separates velocities that jump, as no drone can, from changes by gusts. (right, forward) in the world
 /// frame.
 #[derive(Debug, Clone, Copy, Default)]

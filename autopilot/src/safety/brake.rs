@@ -75,8 +75,8 @@ impl Brake {
             (now.sink_m_s, now.climb_lag_s)
         } else {
             // The floor is hard: nothing that was identified is trusted to be better than the worst.
-            let [_, longest_lag_s] = Airframe::CLIMB_LAGS_S;
-            (Airframe::CLIMBS[0] * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
+            let ([weakest, _], [_, longest_lag_s]) = (Airframe::CLIMBS, Airframe::CLIMB_LAGS_S);
+            (weakest * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
         };
         let stopping = Stopping {
             delay_s: now.tick_s,

@@ -120,7 +120,8 @@ fn without_drag(state: &Prediction, drag_1_s: f64) -> Vector2<f64> {
     let velocity_m_s = state.velocity_m_s.xy();
     let speed_m_s = velocity_m_s.norm();
     let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-    let most_m_s2 = (Airframe::DRAGS_1_S[1] - drag_1_s).max(0.0) * speed_m_s;
+    let [_, strongest_1_s] = Airframe::DRAGS_1_S;
+    let most_m_s2 = (strongest_1_s - drag_1_s).max(0.0) * speed_m_s;
     let against_m_s2 = -state.disturbance_m_s2.dot(&along);
     state.disturbance_m_s2 + along * against_m_s2.clamp(0.0, most_m_s2)
 }
