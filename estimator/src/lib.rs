@@ -44,6 +44,7 @@ mod horizontal;
 mod identification;
 mod noise;
 mod orders;
+mod rejected;
 mod repetition;
 mod response;
 mod sensor;

@@ -4,10 +4,11 @@
 //! the commands. A Kalman filter knows how uncertain that is, and with it how much a measurement may surprise.
 
 use crate::orders::Order;
+use crate::rejected::{Rejected, Shown};
 use crate::sensor::{GATE, ULTRASOUND_M};
 use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector1, Vector3};
 
 /// Height above the floor at the start, and climb.
 #[derive(Debug, Clone, Copy, Default)]
@@ -63,43 +64,24 @@ pub(crate) struct AltitudeFilter {
     restarted_m2: f64,
     /// What the last accepted height differed by from the corrected one.
     residual_m: f64,
-    rejected: Rejected,
+    agreeing: Agreeing,
 }
 
 /// Consecutive rejected heights, each of which agrees with the one before.
 #[derive(Debug, Clone, Copy, Default)]
-struct Rejected {
-    count: u32,
+struct Agreeing {
+    rejected: Rejected<1>,
     /// Whether the first one may be a climb.
     is_climb: bool,
     /// The last one relative to the expected one, and to the floor at the start.
     by_m: f64,
     last_m: f64,
-    /// Time since the last accepted height, and sums over the rejected ones: of how far they are from it, relative to the
-    /// expected ones; of that times the time; and of the squares of the time.
-    for_s: f64,
-    sum_m: f64,
-    sum_m_s: f64,
-    sum_s2: f64,
 }
 
-impl Rejected {
+impl Agreeing {
     /// Whether a height is nearer to two rejected ones than to the expected one.
     fn is_nearer_to(&self, surprise_m: f64) -> bool {
-        self.count > 1 && (surprise_m - self.by_m).abs() < surprise_m.abs()
-    }
-
-    fn add(&mut self, away_m: f64, step_s: f64) {
-        self.count += 1;
-        self.for_s += step_s;
-        self.sum_m += away_m;
-        self.sum_m_s += away_m * self.for_s;
-        self.sum_s2 += self.for_s * self.for_s;
-    }
-
-    /// Whether a motion since the last accepted height fits them better than a step (least squares).
-    fn is_motion(&self) -> bool {
-        self.sum_m_s * self.sum_m_s / self.sum_s2 > self.sum_m * self.sum_m / f64::from(self.count)
+        self.rejected.count() > 1 && (surprise_m - self.by_m).abs() < surprise_m.abs()
     }
 }
 
@@ -128,8 +110,6 @@ impl AltitudeFilter {
     const BY_ITSELF_M_S: f64 = 0.1;
     /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
     const LIKELIER: f64 = 3.0;
-    /// Number of agreeing heights that make a step of the floor.
-    const AGREEING: u32 = 4;
     /// Difference between heights that the noise of the ultrasound explains. In a gap a larger one is accepted when the
     /// next height agrees: the first may be a wrong echo. They agree in their heights or in their differences to the
     /// expected ones: the drone may hold its height, or move as expected.
@@ -165,7 +145,7 @@ impl AltitudeFilter {
         }
         self.covariance = self.covariance_after(step_s, order);
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        if surprise_m.abs() <= Self::AGREEMENT_M && !self.rejected.is_nearer_to(surprise_m) {
+        if surprise_m.abs() <= Self::AGREEMENT_M && !self.agreeing.is_nearer_to(surprise_m) {
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
@@ -205,49 +185,52 @@ impl AltitudeFilter {
         });
         self.floor_m += correction.z;
         self.residual_m = surprise_m - ABOVE_FLOOR.dot(&correction);
-        self.rejected = Rejected::default();
+        self.agreeing = Agreeing::default();
         self.unconfirmed = false;
     }
 
     /// A height far from the expected one: a wrong echo, unless others agree with it.
     fn reject(&mut self, surprise_m: f64, expected: Vertical, step_s: f64) -> Echo {
         let height_m = expected.height_m + surprise_m;
-        let before = self.rejected;
+        let before = self.agreeing;
         let agrees = (surprise_m - before.by_m).abs() <= Self::AGREEMENT_M
             || (height_m - before.last_m).abs() <= Self::AGREEMENT_M;
-        self.rejected = if before.count > 0 && agrees {
+        self.agreeing = if before.rejected.count() > 0 && agrees {
             before
         } else {
             let is_climb = surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt();
-            Rejected { is_climb, ..Rejected::default() }
+            Agreeing { is_climb, ..Agreeing::default() }
         };
-        self.rejected.add(surprise_m - self.residual_m, step_s);
-        (self.rejected.by_m, self.rejected.last_m) = (surprise_m, height_m);
+        let agreeing = &mut self.agreeing;
+        agreeing.rejected.add(Vector1::new(surprise_m - self.residual_m), step_s);
+        (agreeing.by_m, agreeing.last_m) = (surprise_m, height_m);
         self.state = Some(expected);
-        if self.rejected.count > 1 && self.rejected.is_climb {
+        if agreeing.rejected.count() > 1 && agreeing.is_climb {
             self.accept(surprise_m, expected);
             return Echo::Good;
-        }
-        if self.rejected.count < Self::AGREEING {
-            return Echo::Wrong;
         }
         let surprise_m2 = surprise_m * surprise_m;
-        if self.rejected.is_motion() {
-            // As no order explains that it has received: with any climb.
-            self.covariance[(0, 0)] += surprise_m2;
-            self.covariance[(1, 1)] += UNHEARD_M_S * UNHEARD_M_S;
-            self.accept(surprise_m, expected);
-            return Echo::Good;
-        }
-        // From here on the height is as uncertain as it was, however well that above the floor is measured.
-        self.covariance[(2, 2)] += surprise_m2;
+        let echo = match agreeing.rejected.shown() {
+            None => return Echo::Wrong,
+            Some(Shown::Motion(_)) => {
+                // As no order explains that it has received: with any climb.
+                self.covariance[(0, 0)] += surprise_m2;
+                self.covariance[(1, 1)] += UNHEARD_M_S * UNHEARD_M_S;
+                Echo::Good
+            }
+            Some(Shown::Step) => {
+                // The height is as uncertain as it was, however well that above the floor is measured.
+                self.covariance[(2, 2)] += surprise_m2;
+                Echo::FloorStep
+            }
+        };
         self.accept(surprise_m, expected);
-        Echo::FloorStep
+        echo
     }
 
     /// Standard deviation of the height a time after the last one.
     pub(crate) fn deviation_m(&self, silence_s: f64, order: Order) -> f64 {
-        self.covariance_after(silence_s, order)[(0, 0)].sqrt().hypot(self.rejected.by_m)
+        self.covariance_after(silence_s, order)[(0, 0)].sqrt().hypot(self.agreeing.by_m)
     }
 
     /// The drone has restarted, or old packets are taken for those of a restarted one.
