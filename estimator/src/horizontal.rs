@@ -14,7 +14,7 @@ use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, body_from_world, world_fro
 const BRAKING_TIME_S: f64 = 0.5;
 
 /// Averaging time of the disturbance while the drone holds its position: it also tilts in order to brake.
-const HOLD_TIME_S: f64 = 1.0;
+const HOLD_TIME_S: f64 = 0.3;
 
 /// Horizontal state at one time.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,6 +27,8 @@ pub(crate) struct Horizontal {
     /// (right, forward) in the body frame.
     tilt_rad: Vector2<f64>,
     measured_m_s: Vector2<f64>,
+    /// What the disturbance lacks of the one that the newest measurement shows.
+    lacking_m_s2: Vector2<f64>,
 }
 
 /// Gains of the observer.
@@ -86,14 +88,19 @@ impl Horizontal {
         let surprise = measured_m_s - self.velocity_m_s;
         match order {
             Order::Sticks(_) => {
-                self.velocity_m_s += surprise * (gains.velocity_1_s * step_s).min(0.7);
+                let share = (gains.velocity_1_s * step_s).min(0.7);
+                self.velocity_m_s += surprise * share;
+                self.lacking_m_s2 += (surprise * gains.velocity_1_s - self.lacking_m_s2) * share;
                 let most = gains.disturbance_max_m_s2;
                 let learnt = surprise * (gains.disturbance_1_s2 * step_s.min(0.1));
                 self.disturbance_m_s2 =
                     (self.disturbance_m_s2 + learnt).map(|value| value.clamp(-most, most));
             }
             // The model cannot predict what the drone does autonomously.
-            Order::ByItself => self.velocity_m_s = measured_m_s,
+            Order::ByItself => {
+                self.velocity_m_s = measured_m_s;
+                self.lacking_m_s2 = Vector2::zeros();
+            }
         }
         self.measured_m_s = measured_m_s;
         self.position_m = position_m;
@@ -116,6 +123,20 @@ impl Horizontal {
         let share = (step_s / HOLD_TIME_S).min(1.0);
         self.disturbance_m_s2 = (self.disturbance_m_s2 - (self.disturbance_m_s2 + leaning) * share)
             .map(|value| value.clamp(-most, most));
+    }
+
+    /// The drone has been pushed for a time, unnoticed.
+    pub(crate) fn push(&mut self, by_m_s2: Vector2<f64>, for_s: f64, gains: &ObserverGains) {
+        let most = gains.disturbance_max_m_s2;
+        self.velocity_m_s += by_m_s2 * for_s;
+        self.disturbance_m_s2 =
+            (self.disturbance_m_s2 + by_m_s2).map(|value| value.clamp(-most, most));
+    }
+
+    /// The disturbance that the newest measurement shows, with its noise: where the observer's velocity stays behind the
+    /// measured one, this is what pushes it.
+    pub(crate) fn newest_disturbance_m_s2(&self) -> Vector2<f64> {
+        self.disturbance_m_s2 + self.lacking_m_s2
     }
 
     /// (right, forward) in the body frame, as the sticks ask for it.
@@ -276,6 +297,48 @@ mod tests {
     }
 
     #[test]
+    fn a_velocity_that_stays_behind_shows_the_disturbance_at_once() {
+        // The observer's velocity and disturbance have settled after 5 s; what it is told rises by 1 m/s² more.
+        let (mut motion, mut measured_m_s) = (Horizontal::default(), 0.0);
+        let order = forward(0.0);
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        let airframe = Airframe { drag_1_s: Vector2::zeros(), ..airframe };
+        let mut fly = |for_s: f64, m_s2: f64| {
+            for _ in 0..(for_s / 0.01).round() as u32 {
+                measured_m_s += m_s2 * 0.01;
+                motion.advance(0.01, order, 0.0, &airframe, &limits);
+                motion.correct(
+                    Vector2::new(measured_m_s, 0.0),
+                    Vector2::zeros(),
+                    0.01,
+                    order,
+                    &GAINS,
+                );
+            }
+            [motion.disturbance_m_s2.x, motion.newest_disturbance_m_s2().x]
+        };
+        let settled = fly(5.0, -0.5);
+        assert!(settled.iter().all(|m_s2| (m_s2 + 0.5).abs() < 0.01), "{settled:?}");
+        let [slow_m_s2, newest_m_s2] = fly(0.5, 0.5);
+        assert!(slow_m_s2 < 0.0 && newest_m_s2 > 0.2, "{slow_m_s2} {newest_m_s2}");
+        // What it does by itself is measured by its tilt.
+        motion.correct(Vector2::zeros(), Vector2::zeros(), 0.01, Order::ByItself, &GAINS);
+        assert_eq!(motion.newest_disturbance_m_s2(), motion.disturbance_m_s2);
+    }
+
+    #[test]
+    fn one_that_was_pushed_moves_on_so() {
+        let mut motion = Horizontal {
+            velocity_m_s: Vector2::new(1.0, 0.0),
+            disturbance_m_s2: Vector2::new(0.2, 0.1),
+            ..Horizontal::default()
+        };
+        motion.push(Vector2::new(-4.0, 0.5), 0.25, &GAINS);
+        assert_same(motion.velocity_m_s, 0.0, 0.125);
+        assert_same(motion.disturbance_m_s2, -1.0, 0.6);
+    }
+
+    #[test]
     fn the_tilt_that_holds_a_drone_shows_the_wind() {
         let airframe = Airframe {
             thrust_gain: Vector2::new(0.8, 0.9),
@@ -290,13 +353,13 @@ mod tests {
         let (none, tilt_rad) = (Vector2::zeros(), Vector2::new(0.04, -0.05));
         let right = 0.8 * GRAVITY_M_S2 * 0.04_f64.tan();
         let forward = -0.9 * GRAVITY_M_S2 * 0.05_f64.tan();
-        // Facing right. After a second it is known; after a quarter of it a quarter.
-        assert_same(held(none, tilt_rad, none, 1.0), -forward, right);
+        // Facing right. After 0.3 s it is known; after a quarter of it a quarter.
+        assert_same(held(none, tilt_rad, none, 0.3), -forward, right);
         assert_same(held(none, tilt_rad, none, 3.0), -forward, right);
-        assert_same(held(none, tilt_rad, none, 0.25), -forward / 4.0, right / 4.0);
+        assert_same(held(none, tilt_rad, none, 0.075), -forward / 4.0, right / 4.0);
         let before = Vector2::new(0.2, 0.4);
         let expected = before * 0.75 + Vector2::new(-forward, right) * 0.25;
-        assert_same(held(before, tilt_rad, none, 0.25), expected.x, expected.y);
+        assert_same(held(before, tilt_rad, none, 0.075), expected.x, expected.y);
         // While it moves, part of the tilt is against the drag: at 0.5 m/s forward and 0.3 m/s to the right.
         let (right, forward) = (right - 0.4 * 0.3, forward - 0.7 * 0.5);
         assert_same(held(none, tilt_rad, Vector2::new(0.5, -0.3), 1.0), -forward, right);

@@ -79,7 +79,7 @@ use crate::repetition::Repetitions;
 use crate::response::{Measured, Response};
 use crate::silence::USUAL_STEP_S;
 use crate::uncertainty::Uncertainty;
-use crate::velocity_gate::{Foreseen, VelocityGate};
+use crate::velocity_gate::{Foreseen, Judged, VelocityGate};
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
 use crate::world::{OdometryStep, World};
 
@@ -148,7 +148,7 @@ impl Default for EstimatorConfig {
             attitude_delay: Duration::from_millis(20),
             velocity_gain_1_s: 10.0,
             disturbance_gain_1_s2: 5.0,
-            disturbance_max_m_s2: 2.0,
+            disturbance_max_m_s2: 4.0,
             identify: true,
             tags: None,
         }
@@ -183,6 +183,8 @@ pub struct Prediction {
     pub turn_deg_s: f64,
     /// Acceleration that does not come from the sticks: wind, a wrong level reference. Right, forward.
     pub disturbance_m_s2: Vector2<f64>,
+    /// The same as the newest measurement shows it: sooner, and with its noise.
+    pub newest_disturbance_m_s2: Vector2<f64>,
 }
 
 /// Estimates the drone's position from samples and orders.
@@ -496,11 +498,12 @@ impl Estimator {
         let tilt_rad = Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians);
         let unheard = self.unheard_m_s([from_s, at_s], tilt_rad, after, unheard_share);
         let expected = Foreseen { before_m_s: before, after_m_s: after, unheard_m_s: &unheard };
-        let believed = self.velocity_gate.admits(measured_m_s, &expected, step_s);
+        let judged = self.velocity_gate.judge(measured_m_s, &expected, step_s);
+        let believed = judged != Judged::Rejected;
         let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
         let before_m_s = self.horizontal.measured_m_s();
         let mean_m_s = (before_m_s + velocity_m_s) / 2.0;
-        let position_m = self.horizontal.position_m + mean_m_s * step_s.min(MAX_STEP_S);
+        let mut position_m = self.horizontal.position_m + mean_m_s * step_s.min(MAX_STEP_S);
         let unseen_s = (step_s - USUAL_STEP_S).max(0.0);
         self.uncertainty.fly_unseen(unseen_s, before_m_s, velocity_m_s);
         if !believed {
@@ -508,8 +511,12 @@ impl Estimator {
         }
         self.horizontal = foreseen;
         let gains = self.observer_gains();
+        if let Judged::Pushed { by_m_s2, for_s } = judged {
+            self.horizontal.push(by_m_s2, for_s, &gains);
+            position_m += by_m_s2 * (for_s * (for_s - step_s) / 2.0);
+        }
         self.horizontal.correct(velocity_m_s, position_m, step_s, order, &gains);
-        if order == Order::ByItself && sample.altitude_m > CLEAR_OF_GROUND_M {
+        if order == Order::ByItself {
             let airframe = self.identification.airframe();
             self.horizontal.learn_from_hold(tilt_rad, yaw_deg, step_s, airframe, &gains);
         }
@@ -611,18 +618,20 @@ impl Estimator {
                 &self.config.limits,
             ),
             disturbance_m_s2: horizontal.disturbance_m_s2,
+            newest_disturbance_m_s2: horizontal.newest_disturbance_m_s2(),
         };
         self.in_world(odometry)
     }
 
     fn in_world(&self, odometry: Prediction) -> Prediction {
         let world = &self.world;
-        let Prediction { position_m, velocity_m_s, yaw_deg, disturbance_m_s2, .. } = odometry;
+        let Prediction { position_m, velocity_m_s, yaw_deg, .. } = odometry;
         Prediction {
             position_m: world.place_m(position_m.xy()).push(position_m.z),
             velocity_m_s: world.velocity_m_s(velocity_m_s.xy(), yaw_deg).push(velocity_m_s.z),
             yaw_deg: wrap_deg(world.heading_deg(yaw_deg)),
-            disturbance_m_s2: world.turned(disturbance_m_s2),
+            disturbance_m_s2: world.turned(odometry.disturbance_m_s2),
+            newest_disturbance_m_s2: world.turned(odometry.newest_disturbance_m_s2),
             ..odometry
         }
     }

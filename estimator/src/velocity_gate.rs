@@ -1,7 +1,8 @@
-//! Tells velocities that no drone can reach from changes by gusts and orders.
+//! Tells velocities that no drone can reach from changes by gusts, storms and orders.
 
 use nalgebra::Vector2;
 
+use crate::rejected::{Motion, Rejected, Shown};
 use crate::sensor::{FLOW_M_S, GATE};
 use crate::silence::{Silence, USUAL_STEP_S};
 
@@ -16,6 +17,9 @@ const RETURN_SHARE: f64 = 0.5;
 /// Largest difference between measured and expected velocity beyond that, however it came about.
 const MAX_SURPRISE_M_S: f64 = 1.3;
 
+/// Share of what velocities are wrong by that a storm explains: a noisy one moves on by chance, but not evenly.
+const NEARLY_ALL: f64 = 0.9;
+
 /// Separates velocities that jump, as no drone can, from changes by gusts. (right, forward) in the world
 /// frame.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,6 +29,19 @@ pub(crate) struct VelocityGate {
     /// The last velocity is that of a drone that stands.
     rests: bool,
     silence: Silence,
+    rejected: Rejected<2>,
+}
+
+/// Judgement of a velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Judged {
+    Believed,
+    Rejected,
+    /// It is believed although those before were rejected: the drone has been pushed for this time, as by a storm.
+    Pushed {
+        by_m_s2: Vector2<f64>,
+        for_s: f64,
+    },
 }
 
 /// The model's velocity before and after a step, (right, forward) in the world frame.
@@ -91,14 +108,30 @@ impl VelocityGate {
         *self = Self { last_m_s: Some(Vector2::zeros()), rests: true, silence, ..Self::default() };
     }
 
-    /// Whether to accept a velocity that was measured `step_s` after the last one. After a jump only a velocity near
-    /// the model's is accepted.
-    pub(crate) fn admits(
+    /// Judges a velocity that was measured `step_s` after the last one. After a jump only a velocity near the model's is
+    /// believed, or one that moves on.
+    pub(crate) fn judge(
         &mut self,
         measured_m_s: Vector2<f64>,
         foreseen: &Foreseen<'_>,
         step_s: f64,
-    ) -> bool {
+    ) -> Judged {
+        if self.admits(measured_m_s, foreseen, step_s) {
+            self.rejected = Rejected::default();
+            return Judged::Believed;
+        }
+        self.rejected.add(measured_m_s - foreseen.after_m_s, step_s);
+        match self.rejected.shown() {
+            Some(Shown::Motion(Motion { rate_1_s, for_s, explains })) if explains >= NEARLY_ALL => {
+                self.rejected = Rejected::default();
+                self.jumped = false;
+                Judged::Pushed { by_m_s2: rate_1_s, for_s }
+            }
+            _ => Judged::Rejected,
+        }
+    }
+
+    fn admits(&mut self, measured_m_s: Vector2<f64>, foreseen: &Foreseen<'_>, step_s: f64) -> bool {
         let Some(last_m_s) = self.last_m_s.replace(measured_m_s) else { return true };
         // The flow may measure nothing new for a second while the drone lifts off, which is no time to speed up.
         let rests = std::mem::take(&mut self.rests);

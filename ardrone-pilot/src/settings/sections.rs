@@ -89,7 +89,7 @@ section! {
         velocity_gain_1_s: f64 = [estimator.velocity_gain_1_s] in 0.1..=100.0,
         disturbance_gain_1_s2: f64 = [estimator.disturbance_gain_1_s2] in 0.0..=50.0,
         /// Largest disturbance (wind, wrong level reference) that is estimated.
-        disturbance_max_m_s2: f64 = [estimator.disturbance_max_m_s2] in 0.0..=3.0,
+        disturbance_max_m_s2: f64 = [estimator.disturbance_max_m_s2] in 0.0..=6.0,
     }
 }
 

@@ -92,6 +92,27 @@ fn a_jump_is_more_than_noise_and_a_gust_beyond_the_model() {
 }
 
 #[test]
+fn what_goes_on_from_one_velocity_to_the_next_pushes_the_drone() {
+    let along = |m_s: f64| Vector2::new(0.6 * m_s, -0.8 * m_s);
+    let still = Vector2::zeros();
+    let judged = |velocities_m_s: [f64; 6]| {
+        let mut gate = VelocityGate { last_m_s: Some(still), ..VelocityGate::default() };
+        velocities_m_s.map(|m_s| gate.judge(along(m_s), &model(still, still), PERIOD_S))
+    };
+    let storm = judged([0.53, 1.06, 1.59, 2.12, 0.0, 0.0]);
+    assert_eq!(storm[..3], [Judged::Rejected; 3]);
+    let Judged::Pushed { by_m_s2, for_s } = storm[3] else { panic!("{storm:?}") };
+    assert!((by_m_s2 - along(0.53 / PERIOD_S)).norm() < 1e-9, "{by_m_s2}");
+    assert!((for_s - 4.0 * PERIOD_S).abs() < 1e-9);
+    // A jump, pulses, noise.
+    assert_eq!(judged([0.7; 6]), [Judged::Rejected; 6]);
+    assert_eq!(judged([0.7, 0.0, 0.7, 0.0, 0.7, 0.0])[4], Judged::Rejected);
+    assert_eq!(judged([0.6, -0.5, 0.7, 1.6, -0.9, 0.8]), [Judged::Rejected; 6]);
+    // One that has come back meanwhile begins again.
+    assert_eq!(judged([0.53, 0.0, 0.53, 1.06, 1.59, 0.0])[4], Judged::Rejected);
+}
+
+#[test]
 fn after_a_jump_only_half_of_the_difference_is_allowed() {
     let along = |m_s: f64| Vector2::new(0.0, m_s);
     for (m_s, fits) in [(0.21, true), (0.22, false), (-0.21, true), (-0.22, false)] {
