@@ -21,6 +21,7 @@ pub mod outcome;
 pub mod plan;
 pub mod safety;
 pub mod vehicle;
+mod wind;
 
 pub use plan::Plan;
 pub use vehicle::{Vehicle, VehicleConfig};

@@ -14,11 +14,12 @@ use std::time::Duration;
 use kinematics::{Pose, Sticks};
 
 use self::brake::Brake;
-use self::carried::CarriedOff;
-use self::descent::{Cause, Descent, place_upwind};
+use self::carried::is_carried_off;
+use self::descent::{Cause, Descent};
 pub(crate) use self::stopping::Stopping;
 use crate::agent::AgentCommand;
 use crate::fence::{FlightLimits, across};
+pub use crate::wind::Wind;
 
 /// Navdata older than this are too old to move by: the drone hovers.
 const STALE: Duration = Duration::from_millis(300);
@@ -35,13 +36,6 @@ const REACTION_S: f64 = 0.5;
 /// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
 /// fence is flown back this far.
 pub(crate) const INSIDE_M: f64 = 0.5;
-/// Longest gust: during it the flight back into the fence is not given up.
-const GUST: Duration = Duration::from_millis(1200);
-/// Nor is it given up for this time after the drone has lost [`BRAKES_M_S`] of its outward speed: it was thrown
-/// out by a gust, and is braking.
-const BRAKES: Duration = Duration::from_millis(600);
-/// Loss of outward speed that shows that the drone is braking.
-const BRAKES_M_S: f64 = 0.5;
 /// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to what the slowest
 /// airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
@@ -72,9 +66,6 @@ pub enum Veto {
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
-    /// The drone cannot brake before the fence against this wind: lean against it and sink, until the wind
-    /// weakens or proves to be more than a gust.
-    AgainstWind,
     /// The wind carries the drone over the fence faster than it can brake: fly it down against the wind, and
     /// land.
     CarriedOff,
@@ -92,7 +83,6 @@ impl Veto {
             Self::WayOutside => "WayOutside",
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
-            Self::AgainstWind => "AgainstWind",
             Self::CarriedOff => "CarriedOff",
         }
     }
@@ -131,10 +121,8 @@ pub struct Situation {
     pub velocity_m_s: [f64; 3],
     /// Predicted motion when an order of this tick takes effect: until then the drone does what it has been sent before.
     pub soon: Motion,
-    /// Wind disturbance towards right and forward, as a fraction of the acceleration at full tilt.
-    pub wind: [f64; 2],
-    /// Acceleration at full tilt in still air.
-    pub full_tilt_m_s2: f64,
+    /// The wind.
+    pub wind: Wind,
     /// Linear drag: deceleration in still air divided by speed, in 1/s.
     pub drag_1_s: f64,
     /// Time for which an order holds until the next, in seconds.
@@ -193,7 +181,6 @@ impl State {
 pub struct SafetyMonitor {
     fence: FlightLimits,
     state: State,
-    carried_off: CarriedOff,
     /// What the fence leaves of this tick's sticks.
     brake: Brake,
     sticks: Sticks,
@@ -202,13 +189,7 @@ pub struct SafetyMonitor {
 impl SafetyMonitor {
     /// A monitor for this fence.
     pub fn new(fence: FlightLimits) -> Self {
-        Self {
-            fence,
-            state: State::Free,
-            carried_off: CarriedOff::default(),
-            brake: Brake::default(),
-            sticks: Sticks::default(),
-        }
+        Self { fence, state: State::Free, brake: Brake::default(), sticks: Sticks::default() }
     }
 
     /// Returns the command itself, or a safer one with the reason.
@@ -223,7 +204,6 @@ impl SafetyMonitor {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
         if !now.airborne {
-            self.carried_off = CarriedOff::default();
             self.state = match (command, self.state) {
                 (AgentCommand::TakeOff, _) => State::Free,
                 (AgentCommand::Standby, _)
@@ -252,13 +232,11 @@ impl SafetyMonitor {
             let veto = self.state.cause().map_or(Veto::Landing, Cause::veto);
             return (AgentCommand::Land, flies.then_some(veto));
         }
-        self.carried_off.see(now, &self.fence.border);
         if flies
             && matches!(self.state, State::Free)
             && let Some(cause) = self.reason_to_land(now)
         {
-            let gust_since = self.carried_off.since().unwrap_or(now.now);
-            self.state = State::BringingDown(Descent::begin(cause, now, &self.fence, gust_since));
+            self.state = State::BringingDown(Descent::begin(cause, now, &self.fence));
         }
         if let State::BringingDown(descent) = &mut self.state {
             return (descent.command(now, &self.fence), Some(descent.cause.veto()));
@@ -266,9 +244,6 @@ impl SafetyMonitor {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
-            _ if moves && self.carried_off.leans() => {
-                (AgentCommand::GoTo(place_upwind(now, &self.fence)), Some(Veto::AgainstWind))
-            }
             AgentCommand::GoTo(target) => self.kept_inside(&target, now),
             AgentCommand::Sticks if !self.stops_inside(now) => {
                 let end = stopping_place(&now.stops_from());
@@ -331,7 +306,7 @@ impl SafetyMonitor {
         } else if !self.fence.is_inside_above(&now.pose, MARGIN_M) {
             // Not below its floor: landing does not correct a height that is too low.
             Some(Cause::OutsideFence)
-        } else if self.carried_off.lasts(now.now) {
+        } else if is_carried_off(now, &self.fence.border) {
             Some(Cause::CarriedOff)
         } else {
             None

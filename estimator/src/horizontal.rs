@@ -303,8 +303,8 @@ mod tests {
         let order = forward(0.0);
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
         let airframe = Airframe { drag_1_s: Vector2::zeros(), ..airframe };
-        let mut fly = |for_s: f64, m_s2: f64| {
-            for _ in 0..(for_s / 0.01).round() as u32 {
+        let mut fly = |steps: u32, m_s2: f64| {
+            for _ in 0..steps {
                 measured_m_s += m_s2 * 0.01;
                 motion.advance(0.01, order, 0.0, &airframe, &limits);
                 motion.correct(
@@ -317,9 +317,9 @@ mod tests {
             }
             [motion.disturbance_m_s2.x, motion.newest_disturbance_m_s2().x]
         };
-        let settled = fly(5.0, -0.5);
+        let settled = fly(500, -0.5);
         assert!(settled.iter().all(|m_s2| (m_s2 + 0.5).abs() < 0.01), "{settled:?}");
-        let [slow_m_s2, newest_m_s2] = fly(0.5, 0.5);
+        let [slow_m_s2, newest_m_s2] = fly(50, 0.5);
         assert!(slow_m_s2 < 0.0 && newest_m_s2 > 0.2, "{slow_m_s2} {newest_m_s2}");
         // What it does by itself is measured by its tilt.
         motion.correct(Vector2::zeros(), Vector2::zeros(), 0.01, Order::ByItself, &GAINS);

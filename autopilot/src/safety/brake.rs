@@ -51,9 +51,8 @@ impl Brake {
         let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
         let speed_m_s = velocity_m_s.norm();
         let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-        let tilted = 1.0 - along.dot(&Vector2::from(now.wind));
-        let braking_m_s2 =
-            now.full_tilt_m_s2 * tilted.max(LEAST_BRAKING) + now.drag_1_s * speed_m_s / 2.0;
+        let wind = now.wind.lasting(&along).min(1.0 - LEAST_BRAKING);
+        let braking_m_s2 = now.wind.braking_m_s2(wind, now.drag_1_s, speed_m_s);
         let stopping = Stopping { delay_s: now.tilts_after_s, braking_m_s2 };
         let stop_m = across(&pose) + along * stopping.way_m(speed_m_s);
         let limits = fence
@@ -117,6 +116,7 @@ mod tests {
     use super::*;
     use crate::fence::Border;
     use crate::safety::tests::FINE;
+    use crate::wind::Wind;
 
     const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
 
@@ -209,7 +209,8 @@ mod tests {
             let way_m = 0.2 * 2.0 + 4.0 / (2.0 * braking_m_s2);
             let pose = Pose { x_m: 4.2 - way_m, ..FINE.pose };
             let soon = Motion { pose, velocity_m_s: [2.0, 0.0, 0.0] };
-            let now = Situation { soon, wind: [wind, 0.0], drag_1_s, ..FINE };
+            let wind_felt = Wind::steady([wind, 0.0], 2.0);
+            let now = Situation { soon, wind: wind_felt, drag_1_s, ..FINE };
             let sticks = Sticks { roll: 1.0, ..Sticks::default() };
             let left = Brake::of(&now, 0.0, &FENCE).leave(&sticks).roll;
             assert!((left - 0.5).abs() < 1e-9, "{wind} {drag_1_s}: {left}");

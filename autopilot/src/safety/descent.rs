@@ -8,7 +8,7 @@ use std::time::Duration;
 use kinematics::Pose;
 use nalgebra::Vector2;
 
-use super::{BRAKES, BRAKES_M_S, GUST, INSIDE_M, STALE, Situation, Veto};
+use super::{INSIDE_M, STALE, Situation, Veto};
 use crate::agent::AgentCommand;
 use crate::fence::{FlightLimits, across};
 
@@ -16,13 +16,13 @@ use crate::fence::{FlightLimits, across};
 pub(super) const LOW_M: f64 = 0.15;
 /// Longest flight back into the fence; then the drone is landed where it is.
 pub(super) const RETREAT: Duration = Duration::from_secs(10);
-/// The flight back is given up when the drone comes no nearer by [`WAY_BACK_M`] in this time, because then it
-/// cannot hold against the wind.
+/// The flight back is given up when the drone neither comes nearer by [`WAY_BACK_M`] nor brakes by [`BRAKES_M_S`] in this
+/// time, or at once where the wind carries it out at full tilt: it cannot hold against it.
 pub(super) const NO_WAY_BACK: Duration = Duration::from_millis(1500);
+/// Smallest loss of outward speed that counts as progress: a gust has thrown the drone out, and it is braking.
+pub(super) const BRAKES_M_S: f64 = 0.5;
 /// Smallest approach that counts as progress on the way back.
 pub(super) const WAY_BACK_M: f64 = 0.05;
-/// The flight back is given up at once where the outward wind exceeds this fraction of full tilt.
-pub(super) const TOO_STRONG: f64 = 1.0;
 /// A drone that cannot come back is flown down against the wind to this height, and lands by itself from there.
 /// Above this height it sinks faster by its sticks than in its own landing.
 pub(super) const HIGH_M: f64 = 0.8;
@@ -68,18 +68,13 @@ pub(super) struct Descent {
 }
 
 impl Descent {
-    /// Begins to bring it down; a gust that it was thrown out by began at `gust_since`.
-    pub(super) fn begin(
-        cause: Cause,
-        now: &Situation,
-        fence: &FlightLimits,
-        gust_since: Duration,
-    ) -> Self {
+    /// Begins to bring it down.
+    pub(super) fn begin(cause: Cause, now: &Situation, fence: &FlightLimits) -> Self {
         Self {
             cause,
             retreats_until: now.now + RETREAT,
             sinks_until: now.now + time_to_sink(now.pose.z_m),
-            way_back: WayBack::begin(now.now, gust_since),
+            way_back: WayBack::begin(now.now),
             upwind: place_upwind(now, fence),
             back_at: fence.nearest_inside(&now.pose, INSIDE_M),
         }
@@ -119,7 +114,7 @@ impl Descent {
 }
 
 /// A low target away from the border that the drone is carried to, far enough for full tilt.
-pub(super) fn place_upwind(now: &Situation, fence: &FlightLimits) -> Pose {
+fn place_upwind(now: &Situation, fence: &FlightLimits) -> Pose {
     let [right_m_s, forward_m_s, _] = now.velocity_m_s;
     let heading = Vector2::new(right_m_s, forward_m_s).try_normalize(0.0).unwrap_or_default();
     let here_m = across(&now.pose);
@@ -130,50 +125,40 @@ pub(super) fn place_upwind(now: &Situation, fence: &FlightLimits) -> Pose {
 /// Progress of a drone outside the fence on its way back.
 #[derive(Debug, Clone, Copy)]
 struct WayBack {
-    /// Smallest distance outside so far, and when it was reached.
+    /// Smallest distance outside, and smallest speed outward, since the last progress.
     outside_m: f64,
-    nearer_at: Duration,
-    /// Largest outward speed since it last fell by [`BRAKES_M_S`], and until when a braking drone is given
-    /// time.
     away_m_s: f64,
-    brakes_until: Duration,
+    /// When it last came nearer, or braked.
+    progress_at: Duration,
 }
 
 impl WayBack {
-    fn begin(now: Duration, gust_since: Duration) -> Self {
-        Self {
-            outside_m: f64::NEG_INFINITY,
-            nearer_at: now,
-            away_m_s: 0.0,
-            brakes_until: gust_since + GUST,
-        }
+    fn begin(now: Duration) -> Self {
+        Self { outside_m: f64::NEG_INFINITY, away_m_s: 0.0, progress_at: now }
     }
 
     fn see(&mut self, now: &Situation, fence: &FlightLimits) {
         let outside_m = fence.outside_m(&now.pose);
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
-        let away_m_s = outward(now, fence, [right_m_s, forward_m_s]);
+        let away_m_s = outward(now, fence).dot(&Vector2::new(right_m_s, forward_m_s));
         if outside_m < self.outside_m - WAY_BACK_M {
-            (self.outside_m, self.nearer_at) = (outside_m, now.now);
+            (self.outside_m, self.progress_at) = (outside_m, now.now);
         }
         if away_m_s < self.away_m_s - BRAKES_M_S {
-            self.away_m_s = away_m_s;
-            self.brakes_until = self.brakes_until.max(now.now + BRAKES);
+            (self.away_m_s, self.progress_at) = (away_m_s, now.now);
         }
         self.outside_m = self.outside_m.max(outside_m);
         self.away_m_s = self.away_m_s.max(away_m_s);
     }
 
     fn is_none(&self, now: &Situation, fence: &FlightLimits) -> bool {
-        let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
-        let too_strong = outward(now, fence, now.wind) > TOO_STRONG;
-        (no_nearer || too_strong) && now.now >= self.brakes_until
+        now.wind.carries(&outward(now, fence)) || now.now >= self.progress_at + NO_WAY_BACK
     }
 }
 
-/// The component of (right, forward) that points out.
-fn outward(now: &Situation, fence: &FlightLimits, direction: [f64; 2]) -> f64 {
-    fence.border.outward(across(&now.pose)).dot(&Vector2::from(direction))
+/// The unit vector that points out.
+fn outward(now: &Situation, fence: &FlightLimits) -> Vector2<f64> {
+    fence.border.outward(across(&now.pose))
 }
 
 /// Longest descent from this height to [`HIGH_M`].

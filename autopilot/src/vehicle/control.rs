@@ -12,19 +12,19 @@ use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
 
 impl Vehicle {
-    /// Converts the agent's command to the session's order. `state` is the predicted motion at `now`, `soon` that when the
-    /// order takes effect.
+    /// Converts the agent's command to the session's order. `soon` is the predicted motion when the order takes effect.
     pub(super) fn carry_out(
         &mut self,
         now: Duration,
         command: AgentCommand,
-        [state, soon]: [&Prediction; 2],
+        soon: &Prediction,
         step_s: f64,
     ) -> Order {
         let last_target = self.flight.target.take();
         self.flight.estimator.advance_smooth(step_s);
         if !matches!(command, AgentCommand::GoTo(_)) {
-            self.flight.saturation.rest(state, step_s);
+            self.flight.saturation.rest(step_s);
+            self.flight.wind.is_usual();
         }
         let mut sent: Option<Sticks> = None;
         let order = match command {
@@ -54,18 +54,16 @@ impl Vehicle {
                     soon.position_m.z,
                     self.full_sink_m_s(),
                 );
-                let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
-                let resists = [self.full_tilt_m_s2(), drag_1_s];
                 // Whether it gets there is measured: by what it was sent it should.
                 let estimate = self.flight.estimator.estimate();
                 let measured = Prediction {
                     position_m: estimate.position_m,
                     velocity_m_s: estimate.velocity_m_s,
                     yaw_deg: estimate.yaw_deg,
-                    disturbance_m_s2: state.disturbance_m_s2,
                     ..Prediction::default()
                 };
-                self.flight.saturation.watch(&demand, limit, &measured, &target, resists, step_s);
+                let storm = self.flight.wind.has_risen(self.full_tilt_m_s2());
+                self.flight.saturation.watch(&demand, limit, &measured, &target, storm, step_s);
                 sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
@@ -153,7 +151,9 @@ mod tests {
         };
         let stay = AgentCommand::GoTo(Pose::default());
         for tick in 0..200 {
-            vehicle.carry_out(Duration::from_millis(30) * tick, stay, [&state, &state], 0.03);
+            let full_tilt_m_s2 = vehicle.full_tilt_m_s2();
+            vehicle.flight.wind.feel(state.disturbance_m_s2, full_tilt_m_s2, 0.03);
+            vehicle.carry_out(Duration::from_millis(30) * tick, stay, &state, 0.03);
         }
         vehicle.flight.saturation.for_ms()
     }

@@ -228,7 +228,6 @@ impl fmt::Display for FlightEvent {
                 Veto::WayOutside => "the straight way to the target leaves the fence: stopping before it",
                 Veto::NearFence => "at the fence: stopping",
                 Veto::OutsideFence => "outside the fence: flying back and landing",
-                Veto::AgainstWind => "the wind is stronger than the drone can brake: leaning against it",
                 Veto::CarriedOff => "the wind is stronger than the drone can brake: landing",
             }),
         }

@@ -6,7 +6,6 @@ use std::time::Duration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use estimator::{Estimator, Quantity, Sample};
 use kinematics::Pose;
-use nalgebra::Vector2;
 use pid::PositionController;
 
 use super::place::CrossChecks;
@@ -16,6 +15,7 @@ use super::{FlightReport, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::outcome::Outcome;
 use crate::safety::{SafetyMonitor, Veto};
+use crate::wind::Wind;
 
 /// State of one flight. It is created anew for each flight from rest, so that a vehicle's tenth flight starts
 /// exactly like its first: the world frame, the fence and the position uncertainty start at the place where
@@ -35,8 +35,7 @@ pub(super) struct Flight {
     pub(super) emergency: Since,
     /// Since when it is on the ground again without an order to land.
     pub(super) down: Since,
-    /// Disturbance acceleration averaged over gusts: right, forward.
-    pub(super) wind_m_s2: Vector2<f64>,
+    pub(super) wind: Wind,
     pub(super) saturation: Saturation,
     pub(super) sign_search: SignSearch,
     pub(super) cross_checks: CrossChecks,
@@ -61,7 +60,7 @@ impl Flight {
             fault: Since::default(),
             emergency: Since::default(),
             down: Since::default(),
-            wind_m_s2: Vector2::zeros(),
+            wind: Wind::calm(1.0),
             saturation: Saturation::default(),
             sign_search: SignSearch::default(),
             cross_checks: CrossChecks::default(),

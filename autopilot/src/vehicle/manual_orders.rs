@@ -90,7 +90,7 @@ impl Vehicle {
     pub(super) fn course_limits(&self) -> MotionLimits {
         self.config.cascade.motion_limits(
             self.full_tilt_m_s2() * self.least_thrust(),
-            self.flight.wind_m_s2.norm(),
+            self.flight.wind.mean_m_s2().norm(),
             self.mission.max_control(),
             self.mission.speed_m_s().unwrap_or(f64::INFINITY),
         )

@@ -164,8 +164,6 @@ const EVENTS: usize = 64;
 const FAULT_TIME: Duration = Duration::from_millis(300);
 /// A drone that has said for this long that it is on the ground is.
 const ON_GROUND_TIME: Duration = Duration::from_millis(500);
-/// Time constant of the average that removes gusts from the disturbance, in seconds.
-const WIND_TIME_S: f64 = 2.0;
 
 /// Ticks between two readiness checks.
 const READINESS_TICKS: u32 = 10;

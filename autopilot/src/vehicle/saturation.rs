@@ -9,8 +9,8 @@
 //! velocity measurement that drifts, which nothing else detects.
 
 use estimator::Prediction;
-use kinematics::{Airframe, Pose, Sticks};
-use nalgebra::{Vector2, Vector3};
+use kinematics::{Pose, Sticks};
+use nalgebra::Vector3;
 
 /// Sticks beyond this fraction of their limit count as saturated; the control law keeps a small reserve.
 const FULL: f64 = 0.95;
@@ -22,11 +22,6 @@ const STILL_M_S: f64 = 0.02;
 const FAR_M: f64 = 0.5;
 /// Distance below which the direction to the target is not defined, in metres.
 const HERE_M: f64 = 0.2;
-
-/// Change of the disturbance that counts as a storm, as a fraction of full tilt.
-const STORM_SHARE: f64 = 0.5;
-/// Averaging time of the disturbance, in seconds.
-const GUST_TIME_S: f64 = 1.5;
 
 /// A drone that is far from its target and gets less than this nearer, in metres, within this time, in
 /// seconds, makes no progress whatever its sticks do: either the wind holds it, or its velocity measurement
@@ -42,9 +37,6 @@ const FLIES_M_S: f64 = 0.4;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Saturation {
     for_s: f64,
-    /// Disturbance averaged over gusts, and its value when the drone last held its position by itself.
-    disturbance_m_s2: Vector2<f64>,
-    usual_m_s2: Vector2<f64>,
     way: Way,
 }
 
@@ -69,7 +61,7 @@ impl Way {
 }
 
 impl Saturation {
-    /// Handles one tick of flying to a target, with a drone of this identified drag. The counter does not start anew with a
+    /// Handles one tick of flying to a target, in a storm or not. The counter does not start anew with a
     /// tick of progress, but runs down twice as fast as it ran up: progress now and then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
@@ -77,13 +69,9 @@ impl Saturation {
         limit: f64,
         state: &Prediction,
         target: &Pose,
-        [full_tilt_m_s2, drag_1_s]: [f64; 2],
+        storm: bool,
         step_s: f64,
     ) {
-        let disturbance_m_s2 = without_drag(state, drag_1_s);
-        self.disturbance_m_s2 +=
-            (disturbance_m_s2 - self.disturbance_m_s2) * (step_s / GUST_TIME_S).min(1.0);
-        let storm = (self.disturbance_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
@@ -99,9 +87,7 @@ impl Saturation {
 
     /// Handles one tick in which the drone holds its position by itself: its tilt then balances the
     /// disturbance.
-    pub(super) fn rest(&mut self, state: &Prediction, step_s: f64) {
-        self.disturbance_m_s2 = state.disturbance_m_s2;
-        self.usual_m_s2 = state.disturbance_m_s2;
+    pub(super) fn rest(&mut self, step_s: f64) {
         self.way = Way::default();
         self.for_s = (self.for_s - step_s).max(0.0);
     }
@@ -113,17 +99,6 @@ impl Saturation {
         let for_ms = (self.for_s * 1e3).round() as i64;
         for_ms
     }
-}
-
-/// The disturbance without what the strongest drag explains: against the motion it may be drag that is not identified yet.
-fn without_drag(state: &Prediction, drag_1_s: f64) -> Vector2<f64> {
-    let velocity_m_s = state.velocity_m_s.xy();
-    let speed_m_s = velocity_m_s.norm();
-    let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-    let [_, strongest_1_s] = Airframe::DRAGS_1_S;
-    let most_m_s2 = (strongest_1_s - drag_1_s).max(0.0) * speed_m_s;
-    let against_m_s2 = -state.disturbance_m_s2.dot(&along);
-    state.disturbance_m_s2 + along * against_m_s2.clamp(0.0, most_m_s2)
 }
 
 /// Whether a drone at this distance from its target, which grows at this speed, does not get there.
@@ -166,7 +141,7 @@ mod tests {
                 ..Prediction::default()
             };
             let mut saturation = Saturation::default();
-            saturation.watch(&full, 1.0, &state, &target, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
+            saturation.watch(&full, 1.0, &state, &target, false, 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_counted([0.4, 0.0, 0.0], [0.15, 0.0, 0.0]));
@@ -184,7 +159,7 @@ mod tests {
         let right = Prediction { position_m: Vector3::new(1.0, 0.0, 1.0), ..Prediction::default() };
         let is_full = |demand: Sticks| {
             let mut saturation = Saturation::default();
-            saturation.watch(&demand, 0.5, &right, &TARGET, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
+            saturation.watch(&demand, 0.5, &right, &TARGET, false, 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_full(Sticks { roll: -0.48, ..Sticks::default() }));
@@ -202,18 +177,11 @@ mod tests {
         };
         let mut saturation = Saturation { for_s: 1.0, ..Saturation::default() };
         for _ in 0..25 {
-            saturation.watch(
-                &full,
-                1.0,
-                &moving(-0.5),
-                &TARGET,
-                [2.0, Airframe::DRAGS_1_S[1]],
-                0.01,
-            );
+            saturation.watch(&full, 1.0, &moving(-0.5), &TARGET, false, 0.01);
         }
         assert_eq!(saturation.for_ms(), 500);
         for _ in 0..25 {
-            saturation.rest(&Prediction::default(), 0.01);
+            saturation.rest(0.01);
         }
         assert_eq!(saturation.for_ms(), 250);
     }
@@ -244,7 +212,7 @@ mod tests {
         };
         let mut saturation = Saturation::default();
         for _ in 0..100 {
-            saturation.watch(&demand, 1.0, &state, &TARGET, [2.0, Airframe::DRAGS_1_S[1]], 0.01);
+            saturation.watch(&demand, 1.0, &state, &TARGET, false, 0.01);
         }
         saturation.for_ms()
     }
@@ -265,64 +233,23 @@ mod tests {
     }
 
     #[test]
-    fn a_disturbance_that_was_not_there_before_is_a_storm_or_a_drift() {
-        let disturbed = |m_s2| Prediction {
-            disturbance_m_s2: Vector2::new(m_s2, 0.0),
-            ..Prediction::default()
-        };
-        let lasts_ms = |before_m_s2, then_m_s2| {
+    fn a_storm_counts_wherever_the_drone_is_and_whatever_its_sticks() {
+        let lasts_ms = |storm| {
             let mut saturation = Saturation::default();
-            saturation.rest(&disturbed(before_m_s2), 0.01);
-            let here = Pose { z_m: 0.0, ..TARGET };
-            for _ in 0..500 {
-                let state = disturbed(then_m_s2);
+            for _ in 0..100 {
+                let here = Pose { z_m: 0.0, ..TARGET };
                 saturation.watch(
                     &Sticks::default(),
                     1.0,
-                    &state,
+                    &Prediction::default(),
                     &here,
-                    [2.0, Airframe::DRAGS_1_S[1]],
+                    storm,
                     0.01,
                 );
             }
             saturation.for_ms()
         };
-        assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
-        assert_eq!(lasts_ms(0.0, 0.9), 0, "a breeze");
-        assert!(lasts_ms(0.0, 1.5) > 2000);
-    }
-
-    #[test]
-    fn a_storm_is_half_of_full_tilt_averaged_over_gusts() {
-        let disturbed =
-            Prediction { disturbance_m_s2: Vector2::new(1.0, 0.0), ..Prediction::default() };
-        let here = Pose { z_m: 0.0, ..TARGET };
-        let mut saturation = Saturation::default();
-        for _ in 0..150 {
-            saturation.watch(
-                &Sticks::default(),
-                1.0,
-                &disturbed,
-                &here,
-                [9.0, Airframe::DRAGS_1_S[1]],
-                0.01,
-            );
-        }
-        let average_m_s2 = saturation.disturbance_m_s2.x;
-        assert!((average_m_s2 - 0.632).abs() < 0.01, "{average_m_s2}");
-        // A tick longer than a gust makes the average the newest value.
-        for (full_tilt_m_s2, storm) in [(2.0, false), (1.9, true)] {
-            let mut saturation = Saturation::default();
-            saturation.watch(
-                &Sticks::default(),
-                1.0,
-                &disturbed,
-                &here,
-                [full_tilt_m_s2, Airframe::DRAGS_1_S[1]],
-                2.0,
-            );
-            assert_eq!(saturation.for_ms() > 0, storm, "{full_tilt_m_s2}");
-        }
+        assert_eq!([lasts_ms(false), lasts_ms(true)], [0, 1000]);
     }
 
     #[test]
@@ -333,14 +260,7 @@ mod tests {
                 let x_m = 3.0 - speed_m_s * 0.01 * f64::from(step);
                 let position_m = Vector3::new(x_m, 0.0, 1.0);
                 let state = Prediction { position_m, ..Prediction::default() };
-                saturation.watch(
-                    &Sticks::default(),
-                    1.0,
-                    &state,
-                    &TARGET,
-                    [2.0, Airframe::DRAGS_1_S[1]],
-                    0.01,
-                );
+                saturation.watch(&Sticks::default(), 1.0, &state, &TARGET, false, 0.01);
             }
             saturation.for_ms()
         };
@@ -352,22 +272,8 @@ mod tests {
     fn what_passes_is_forgotten() {
         let mut saturation = Saturation { for_s: 1.5, ..Saturation::default() };
         for _ in 0..100 {
-            saturation.rest(&Prediction::default(), 0.02);
+            saturation.rest(0.02);
         }
         assert_eq!(saturation.for_ms(), 0);
-    }
-
-    #[test]
-    fn a_disturbance_against_the_motion_may_be_drag() {
-        let state = |velocity: [f64; 2], disturbance: [f64; 2]| Prediction {
-            velocity_m_s: Vector2::from(velocity).push(0.0),
-            disturbance_m_s2: disturbance.into(),
-            ..Prediction::default()
-        };
-        let left = |velocity, disturbance| without_drag(&state(velocity, disturbance), 0.95);
-        assert!((left([0.5, 0.0], [-0.8, 0.3]) - Vector2::new(-0.3, 0.3)).norm() < 1e-9);
-        assert!((left([0.5, 0.0], [-0.4, 0.3]) - Vector2::new(0.0, 0.3)).norm() < 1e-9);
-        assert!((left([0.5, 0.0], [0.8, 0.3]) - Vector2::new(0.8, 0.3)).norm() < 1e-9, "along");
-        assert!((left([0.0, 0.0], [-0.8, 0.3]) - Vector2::new(-0.8, 0.3)).norm() < 1e-9);
     }
 }

@@ -94,7 +94,7 @@ impl Vehicle {
             age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
             seen: nearest.is_some() && status.seen_ago.is_some_and(|ago| ago < IN_VIEW),
             nearest_m: nearest.map(Into::into),
-            landing_drift_m: landing_drift_m(self.flight.wind_m_s2).into(),
+            landing_drift_m: landing_drift_m(self.flight.wind.mean_m_s2()).into(),
         }
     }
 

@@ -8,15 +8,15 @@ use ardrone_link::navdata::{ControlState, DroneState};
 use ardrone_link::session::{Input, Order, Request};
 use estimator::Prediction;
 use kinematics::{GRAVITY_M_S2, Pose};
-use nalgebra::Vector2;
 
 use super::life::{Active, Life};
 use super::{
     AgentOrder, Decision, FlightEvent, LandingReason, NotReady, Outcome, READINESS_TICKS, Report,
-    RestsOn, Stage, TICK, TagStatus, Target, Vehicle, WIND_TIME_S, Waypoint, is_airborne, pose,
+    RestsOn, Stage, TICK, TagStatus, Target, Vehicle, Waypoint, is_airborne, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::{self, Situation};
+use crate::wind::{Wind, without_drag};
 
 /// A drone obeys within this time and the link's delay, and then leans to within this share of full tilt.
 const OBEYS_WITHIN: Duration = Duration::from_millis(500);
@@ -42,7 +42,7 @@ impl Vehicle {
         self.offer_order(now);
         // The state is predicted once, so that everything below uses the same one.
         let state = self.state(now);
-        self.feel_wind(state.disturbance_m_s2, step_s);
+        self.feel_wind(&state, step_s);
         let tags = self.flight.estimator.tag_status(now);
         self.cross_check(now, tags.as_ref(), step_s);
         self.advance_setpoint(&state, step_s);
@@ -69,7 +69,7 @@ impl Vehicle {
             }
         }
         self.flight.veto = veto;
-        let order = self.carry_out(now, command, [&state, &soon], step_s);
+        let order = self.carry_out(now, command, &soon, step_s);
         self.watch_obedience(now, &order);
         self.decision = Some(Decision {
             at: now,
@@ -160,7 +160,7 @@ impl Vehicle {
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
             position_sd_m: self.flight.estimator.horizontal_deviation_m(now),
             saturated_for_ms: self.flight.saturation.for_ms(),
-            wind: self.wind().norm(),
+            wind: self.flight.wind.share(),
             steering: self.life.manual().sticks(now).is_some(),
             setpoint: self.life.manual().setpoint(now),
             station: self.station_percepts(now),
@@ -201,15 +201,16 @@ impl Vehicle {
         self.flight.estimator.airframe().thrust_gain.amin()
     }
 
-    /// Wind disturbance as a fraction of the acceleration at full tilt.
-    pub(super) fn wind(&self) -> Vector2<f64> {
-        self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
-    }
-
-    pub(super) fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
-        let disturbance_m_s2 = if self.on_ground() { Vector2::zeros() } else { disturbance_m_s2 };
-        self.flight.wind_m_s2 +=
-            (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
+    /// The wind of one flight; none on the ground.
+    pub(super) fn feel_wind(&mut self, state: &Prediction, step_s: f64) {
+        let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
+        if self.on_ground() {
+            self.flight.wind = Wind::calm(full_tilt_m_s2);
+        } else {
+            let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
+            let disturbance_m_s2 = without_drag(state, drag_1_s);
+            self.flight.wind.feel(disturbance_m_s2, full_tilt_m_s2, step_s);
+        }
     }
 
     pub(super) fn situation(
@@ -218,7 +219,6 @@ impl Vehicle {
         state: &Prediction,
         soon: &Prediction,
     ) -> Situation {
-        let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         let airframe = self.flight.estimator.airframe();
         Situation {
             now,
@@ -229,8 +229,7 @@ impl Vehicle {
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
             soon: safety::Motion { pose: pose(soon), velocity_m_s: soon.velocity_m_s.into() },
-            wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
-            full_tilt_m_s2,
+            wind: self.flight.wind,
             drag_1_s: airframe.drag_1_s.min(),
             tick_s: TICK.as_secs_f64(),
             tilts_after_s: TICK.as_secs_f64() + airframe.tilt_lag_s,

@@ -53,8 +53,8 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "a velocity that jumps",
         ESTIMATOR,
-        "self.velocity_gate.admits(measured_m_s, &expected, step_s);",
-        "self.velocity_gate.admits(measured_m_s, &expected, step_s) || step_s >= 0.0;",
+        "let believed = judged != Judged::Rejected;",
+        "let believed = judged != Judged::Rejected || step_s >= 0.0;",
     ),
     without(
         "orders that were not heard explain a velocity",
@@ -71,7 +71,7 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "an unlikely echo",
         VERTICAL,
-        "if surprise_m.abs() <= Self::AGREEMENT_M && !self.rejected.is_nearer_to(surprise_m) {",
+        "if surprise_m.abs() <= Self::AGREEMENT_M && !self.agreeing.is_nearer_to(surprise_m) {",
         "if surprise_m.abs() <= Self::AGREEMENT_M.max(f64::MAX) {",
     ),
     without(

@@ -103,8 +103,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "no fence",
         SAFETY,
-        "Self {\n            fence,",
-        "let fence = FlightLimits { z_origin: fence.z_origin, ..FlightLimits::NONE };\n        Self {\n            fence,",
+        "Self { fence, state",
+        "let fence = FlightLimits { z_origin: fence.z_origin, ..FlightLimits::NONE };\n        Self { fence, state",
     ),
     mutant(
         "no vetoes at all",
@@ -128,8 +128,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "floor and ceiling changed places",
         SAFETY,
-        "Self {\n            fence,",
-        "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
+        "Self { fence, state",
+        "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self { fence, state",
     ),
     layered(
         mutant(
@@ -163,8 +163,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         &[
             edit(
                 SAFETY,
-                "self.carried_off.lasts(now.now)",
-                "self.carried_off.lasts(Duration::ZERO)",
+                "} else if is_carried_off(now, &self.fence.border) {",
+                "} else if is_carried_off(now, &self.fence.border) && now.blind_for > BLIND {",
             ),
             edit(
                 DESCENT,

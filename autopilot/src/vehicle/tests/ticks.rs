@@ -97,19 +97,16 @@ fn the_navdata_rate_is_averaged_over_a_second() {
 fn the_wind_is_averaged_in_the_air_and_forgotten_on_the_ground() {
     let mut bench = Bench::in_the_air(STAY);
     let disturbance_m_s2 = nalgebra::Vector2::new(1.0, -0.5);
-    bench.vehicle.flight.wind_m_s2 = nalgebra::Vector2::zeros();
-    for _ in 0..200 {
-        bench.vehicle.feel_wind(disturbance_m_s2, 0.01);
+    let state = Prediction { newest_disturbance_m_s2: disturbance_m_s2, ..Prediction::default() };
+    for _ in 0..3000 {
+        bench.vehicle.feel_wind(&state, 0.01);
     }
-    let wind_m_s2 = bench.vehicle.flight.wind_m_s2;
-    assert!((wind_m_s2 - 0.633 * disturbance_m_s2).norm() < 0.01, "{wind_m_s2}");
+    let wind_m_s2 = bench.vehicle.flight.wind.mean_m_s2();
+    assert!((wind_m_s2 - disturbance_m_s2).norm() < 0.01, "{wind_m_s2}");
     bench.comes_down();
     bench.run(SECOND);
-    bench.vehicle.flight.wind_m_s2 = wind_m_s2;
-    for _ in 0..200 {
-        bench.vehicle.feel_wind(disturbance_m_s2, 0.01);
-    }
-    assert!(bench.vehicle.flight.wind_m_s2.norm() < 0.37 * wind_m_s2.norm());
+    bench.vehicle.feel_wind(&state, 0.01);
+    assert_eq!(bench.vehicle.flight.wind.mean_m_s2(), nalgebra::Vector2::zeros());
 }
 
 /// Shares of what a drone whose thrust is weak in one direction reaches at full tilt.
@@ -125,18 +122,15 @@ fn wind_is_a_share_of_the_weakest_acceleration_at_full_tilt() {
     config.estimator.limits.climb_m_s = 0.4;
     let mut vehicle = Vehicle::new(&config).unwrap();
     let full_m_s2 = 0.5 * 9.806_65 * 0.4_f64.tan();
-    vehicle.flight.wind_m_s2 = nalgebra::Vector2::new(full_m_s2, 0.0);
-    let wind = vehicle.wind();
-    assert!((wind.x - 1.0).abs() < 0.01 && wind.y.abs() < 1e-9, "{wind}");
     let state = Prediction {
         position_m: nalgebra::Vector3::new(1.0, 2.0, 3.0),
         velocity_m_s: nalgebra::Vector3::new(4.0, 5.0, 6.0),
-        disturbance_m_s2: nalgebra::Vector2::new(0.0, -full_m_s2 / 2.0),
         ..Prediction::default()
     };
+    vehicle.feel_wind(&state, 0.03);
     let situation = vehicle.situation(SECOND, &state, &state);
-    assert!(situation.wind[0].abs() < 1e-9 && (situation.wind[1] + 0.5).abs() < 0.01);
-    assert!((situation.full_tilt_m_s2 - full_m_s2).abs() < 0.01, "{}", situation.full_tilt_m_s2);
+    let braking_m_s2 = situation.wind.braking_m_s2(0.0, situation.drag_1_s, 0.0);
+    assert!((braking_m_s2 - full_m_s2).abs() < 0.01, "{braking_m_s2}");
     assert!((situation.drag_1_s - 0.6).abs() < 1e-9);
     assert!((situation.tilts_after_s - 0.23).abs() < 1e-9);
     assert!((situation.sink_m_s - 0.6).abs() < 1e-9);
