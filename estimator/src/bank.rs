@@ -103,6 +103,18 @@ impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
         }
     }
 
+    /// A gain may have changed, with this standard deviation. All that was learnt of the others stays.
+    pub(crate) fn doubt(&mut self, gain: usize, spread: f64) {
+        for it in &mut self.hypotheses {
+            let column = it.information.column(gain).clone_owned();
+            let share = 1.0 / (spread.powi(-2) + column[gain]);
+            let moment = it.moment[gain];
+            it.information -= column * column.transpose() * share;
+            it.moment -= column * (share * moment);
+            it.square -= share * moment * moment;
+        }
+    }
+
     /// The lag in seconds and the gains.
     pub(crate) fn estimate(&self) -> (f64, SVector<f64, GAINS>) {
         let (lag_s, gains, _) = self.estimate_with(&[0.0; LAGS]);
@@ -178,6 +190,28 @@ mod tests {
             let (_, gains) = fly(200..6000, 0.6, 1.7);
             assert!((gains.x - 0.6).abs() < 0.03, "{gains}");
         }
+    }
+
+    #[test]
+    fn what_is_doubted_is_learnt_anew_and_the_rest_is_kept() {
+        let mut bank = Bank::<1, 2>::new([1.0], &ASSUMPTION);
+        let learn = |bank: &mut Bank<1, 2>, gains: [f64; 2], steps: u32| {
+            for step in 0..steps {
+                let cause = SVector::<f64, 2>::new(0.1 * (f64::from(step) * 0.3).sin(), 0.1);
+                bank.learn(cause.dot(&SVector::from(gains)), &[cause]);
+            }
+            bank.estimate().1
+        };
+        learn(&mut bank, [0.8, 1.0], 400);
+        let (before, mut sure) = (bank.estimate().1, bank.clone());
+        bank.doubt(1, 10.0);
+        let doubted = bank.estimate().1;
+        assert!((doubted - before).norm() < 1e-9, "what is likeliest stays: {doubted}");
+        let unexplained = |bank: &Bank<1, 2>| bank.hypotheses[0].unexplained(&before);
+        assert!((unexplained(&bank) - unexplained(&sure)).abs() < 1e-6, "and how likely it is");
+        let found = learn(&mut bank, [0.8, -1.0], 5);
+        assert!((found - SVector::<f64, 2>::new(0.8, -1.0)).norm() < 0.05, "{found}");
+        assert!(learn(&mut sure, [0.8, -1.0], 5).y > 0.5, "otherwise it is not believed");
     }
 
     /// One gain, and as many lags, of which each has its own excitation.

@@ -26,6 +26,10 @@ const TURN_LAGS_S: [f64; 5] = [0.03, 0.1, 0.2, 0.35, 0.55];
 const WINDOW_S: f64 = 0.5;
 /// Covers the window at 200 packets per second.
 const MEMORY: usize = 128;
+/// The gain of a thrust learner that is the wind, and its standard deviation before anything is known of it. Once the drone
+/// has turned it blows from another side of the body.
+const WIND: usize = 2;
+const WIND_M_S2: f64 = 0.4;
 /// A window in which the drone turns further is discarded, because it mixes the axes.
 const MAX_TURN_DEG: f64 = 10.0;
 
@@ -177,7 +181,7 @@ impl Identification {
         let thrust = |axis: usize| {
             let assumption = Assumption {
                 gains: [airframe.thrust_gain[axis], airframe.drag_1_s[axis], 0.0],
-                spreads: [0.25, 0.5, 0.2],
+                spreads: [0.25, 0.5, WIND_M_S2],
                 lag_s: 1.0,
                 lag_spread: 1.0,
                 noise: 0.12,
@@ -293,11 +297,15 @@ impl Identification {
         orders: &Orders,
     ) {
         let from_s = self.velocity_at_s.replace(at_s).unwrap_or(at_s);
-        let turned = (yaw_deg - self.window_yaw_deg).abs() > MAX_TURN_DEG;
+        let turned_deg = (yaw_deg - self.window_yaw_deg).abs();
+        let turned = turned_deg > MAX_TURN_DEG;
         if orders.at(at_s) == Order::ByItself || turned {
             self.window_yaw_deg = yaw_deg;
             for learner in &mut self.thrust {
                 learner.window.answers.clear();
+                if turned {
+                    learner.bank.doubt(WIND, WIND_M_S2 * turned_deg.to_radians().min(2.0));
+                }
             }
         }
         let (airframe, most) = (self.airframe, self.limits.tilt_rad);

@@ -215,6 +215,30 @@ fn a_window_in_which_the_drone_turns_teaches_nothing_of_thrust() {
 }
 
 #[test]
+fn the_wind_may_blow_from_another_side_after_a_turn() {
+    // It looks the other way every 20 s, in a wind of 1 m/s² that holds it back in the world; it leans against it.
+    let mut identification = Identification::new(Airframe::default(), LIMITS);
+    let mut orders = Orders::new(Duration::ZERO);
+    let mut truth = Truth::default();
+    let mut worst = 0.0_f64;
+    for step in 0..16 * 120 {
+        let now = PERIOD * step;
+        let at_s = now.as_secs_f64();
+        let looks_back = at_s % 40.0 >= 20.0;
+        let (side, yaw_deg) = if looks_back { (-1.0, 180.0) } else { (1.0, 0.0) };
+        let roll = (0.5 * side + in_turns(at_s, 0.3)).clamp(-1.0, 1.0);
+        let sticks = Sticks { roll, ..Sticks::default() };
+        orders.push(now, Order::Sticks(sticks));
+        identification.tilt(at_s, truth.tilt_rad, &orders);
+        identification.velocity(at_s, truth.velocity_m_s, yaw_deg, &orders);
+        truth.fly(sticks, &Airframe::default());
+        truth.velocity_m_s.x -= side * PERIOD.as_secs_f64();
+        worst = worst.max((identification.airframe().thrust_gain.x - 1.0).abs());
+    }
+    assert!(worst < 0.35, "{worst}");
+}
+
+#[test]
 fn gains_stay_within_those_of_known_airframes() {
     let sticks = |at_s| Sticks {
         gaz: in_turns(at_s, 1.0),
