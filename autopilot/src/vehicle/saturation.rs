@@ -5,7 +5,7 @@
 //!
 //! The estimated wind alone is not accurate enough to decide by, because the estimate also contains the
 //! modelling error of the airframe. What matters is whether the drone holds its position. A disturbance
-//! counts by itself only if it was absent after take-off and takes half of full tilt: that is a storm, or a
+//! counts by itself only if it was absent after take-off and takes as much of full tilt as a storm: it is one, or a
 //! velocity measurement that drifts, which nothing else detects.
 
 use estimator::Prediction;
