@@ -29,7 +29,7 @@ const MEMORY: usize = 128;
 /// The gain of a thrust learner that is the wind, and its standard deviation before anything is known of it. Once the drone
 /// has turned it blows from another side of the body.
 const WIND: usize = 2;
-const WIND_M_S2: f64 = 0.4;
+const WIND_M_S2: f64 = 0.3;
 /// A window in which the drone turns further is discarded, because it mixes the axes.
 const MAX_TURN_DEG: f64 = 10.0;
 

@@ -17,7 +17,7 @@ pub(super) const LOW_M: f64 = 0.15;
 /// Longest flight back into the fence; then the drone is landed where it is.
 pub(super) const RETREAT: Duration = Duration::from_secs(10);
 /// The flight back is given up when the drone neither comes nearer by [`WAY_BACK_M`] nor brakes by [`BRAKES_M_S`] in this
-/// time, or at once where the wind carries it out at full tilt: it cannot hold against it.
+/// time.
 pub(super) const NO_WAY_BACK: Duration = Duration::from_millis(1500);
 /// Smallest loss of outward speed that counts as progress: a gust has thrown the drone out, and it is braking.
 pub(super) const BRAKES_M_S: f64 = 0.5;
@@ -88,7 +88,7 @@ impl Descent {
         if outside_m > -INSIDE_M {
             self.back_at = fence.nearest_inside(&now.pose, INSIDE_M);
         }
-        let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now, fence);
+        let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now);
         let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
         let (target, may_fly) = match self.cause {
             Cause::OutsideFence => (self.retreat(&now.pose, fence), sinks || !is_hopeless),
@@ -151,8 +151,8 @@ impl WayBack {
         self.away_m_s = self.away_m_s.max(away_m_s);
     }
 
-    fn is_none(&self, now: &Situation, fence: &FlightLimits) -> bool {
-        now.wind.carries(&outward(now, fence)) || now.now >= self.progress_at + NO_WAY_BACK
+    fn is_none(&self, now: &Situation) -> bool {
+        now.now >= self.progress_at + NO_WAY_BACK
     }
 }
 

@@ -168,7 +168,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
             ),
             edit(
                 DESCENT,
-                "let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now, fence);",
+                "let is_hopeless = outside_m > 0.0 && self.way_back.is_none(now);",
                 "let is_hopeless = false;",
             ),
         ],
