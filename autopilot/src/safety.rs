@@ -11,7 +11,8 @@ mod stopping;
 
 use std::time::Duration;
 
-use kinematics::{Pose, Sticks};
+use kinematics::{Pose, Sticks, world_from_body};
+use nalgebra::Vector2;
 
 use self::brake::Brake;
 use self::carried::is_carried_off;
@@ -36,6 +37,8 @@ const REACTION_S: f64 = 0.5;
 /// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
 /// fence is flown back this far.
 pub(crate) const INSIDE_M: f64 = 0.5;
+/// A stick that leads nearer to the border than [`INSIDE_M`], or to the ceiling or the floor, by less than this leads along it.
+const AHEAD_M: f64 = 0.05;
 /// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to what the slowest
 /// airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
@@ -115,6 +118,8 @@ pub struct Situation {
     pub airborne: bool,
     /// The drone is landing, by itself or by order.
     pub landing: bool,
+    /// What manual control asks for; at rest without it.
+    pub sticks: Sticks,
     /// Predicted pose.
     pub pose: Pose,
     /// Predicted velocity: right, forward, up.
@@ -184,12 +189,21 @@ pub struct SafetyMonitor {
     /// What the fence leaves of this tick's sticks.
     brake: Brake,
     sticks: Sticks,
+    /// Where manual control was stopped, until it leads inside again. It must not be found anew in each tick: a place that
+    /// goes ahead of the drone would lead it on, along the border, up and down.
+    stop: Option<Pose>,
 }
 
 impl SafetyMonitor {
     /// A monitor for this fence.
     pub fn new(fence: FlightLimits) -> Self {
-        Self { fence, state: State::Free, brake: Brake::default(), sticks: Sticks::default() }
+        Self {
+            fence,
+            state: State::Free,
+            brake: Brake::default(),
+            sticks: Sticks::default(),
+            stop: None,
+        }
     }
 
     /// Returns the command itself, or a safer one with the reason.
@@ -242,16 +256,20 @@ impl SafetyMonitor {
             return (descent.command(now, &self.fence), Some(descent.cause.veto()));
         }
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
+        if command != AgentCommand::Sticks {
+            self.stop = None;
+        }
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             AgentCommand::GoTo(target) => self.kept_inside(&target, now),
-            AgentCommand::Sticks if !self.stops_inside(now) => {
-                let end = stopping_place(&now.stops_from());
-                let across_m =
-                    self.fence.border.stop_inside(across(&now.soon.pose), across(&end), INSIDE_M);
-                let stop = Pose { x_m: across_m.x, y_m: across_m.y, ..end };
-                let stop = self.fence.nearest_inside(&stop, 0.0);
-                (AgentCommand::GoTo(stop), Some(Veto::NearFence))
+            AgentCommand::Sticks => {
+                self.stop = self.stop.filter(|stop| self.leads_on(stop, now));
+                if self.stop.is_none() && !self.stops_inside(now) {
+                    self.stop = Some(self.place_to_stop(now));
+                }
+                self.stop.map_or((command, None), |stop| {
+                    (AgentCommand::GoTo(stop), Some(Veto::NearFence))
+                })
             }
             _ => (command, None),
         }
@@ -325,6 +343,25 @@ impl SafetyMonitor {
             Some(stop) => (AgentCommand::GoTo(stop), Some(Veto::WayOutside)),
             None => (AgentCommand::GoTo(inside), veto),
         }
+    }
+
+    /// Where a drone stops inside that begins to brake now.
+    fn place_to_stop(&self, now: &Situation) -> Pose {
+        let end = stopping_place(&now.stops_from());
+        let across_m =
+            self.fence.border.stop_inside(across(&now.soon.pose), across(&end), INSIDE_M);
+        self.fence.nearest_inside(&Pose { x_m: across_m.x, y_m: across_m.y, ..end }, 0.0)
+    }
+
+    /// Whether manual control leads towards the border, the ceiling or the floor from where it was stopped.
+    fn leads_on(&self, stop: &Pose, now: &Situation) -> bool {
+        let Sticks { roll, pitch, gaz, .. } = now.sticks;
+        let ahead_m = world_from_body(Vector2::new(roll, -pitch), now.pose.yaw_deg)
+            .try_normalize(0.0)
+            .map_or(across(stop), |direction| across(stop) + direction * INSIDE_M);
+        self.fence.border.outside_m(ahead_m) > AHEAD_M - INSIDE_M
+            || gaz > 0.0 && stop.z_m > self.fence.ceiling_m - AHEAD_M
+            || gaz < 0.0 && stop.z_m < self.fence.floor_m + AHEAD_M
     }
 
     fn stops_inside(&self, now: &Situation) -> bool {

@@ -160,6 +160,48 @@ fn manual_control_does_not_leave_the_fence() {
     }
 }
 
+/// A stick that is held outward stops the drone at the fence, and neither leads it on along the border nor up and down.
+#[test]
+fn a_stick_that_is_held_at_the_fence_leads_the_drone_nowhere() {
+    let square = [[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]];
+    let square = Border::polygon(&square).unwrap();
+    for border in [NEAR.border, square] {
+        for (profile, roll, pitch) in [
+            (Profile::rec(), 0.7, -0.7),
+            (Profile::rec(), 0.0, -1.0),
+            (Profile::rec(), -1.0, 0.3),
+            (Profile::tum(), 0.7, -0.7),
+            (Profile::tf(), 1.0, -0.2),
+            (Profile::leo(), 0.7, -0.7),
+        ] {
+            let held = Sticks { roll, pitch, ..Sticks::default() };
+            let sticks = (0..400_u32)
+                .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(held)))
+                .chain([(48 * SECOND, OperatorOrder::Land)]);
+            let limits = FlightLimits { border, ..NEAR };
+            let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
+            let drone = DroneConfig { profile, ..DroneConfig::default() };
+            let world = WorldConfig { drone, ..WorldConfig::default() };
+            let orders = sticks.collect();
+            let simulation = Simulation { pilot, orders, world, ..Simulation::default() };
+            let flown = plan("takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n");
+            let mut places_m = Vec::new();
+            let watch = |moment: &Moment| {
+                if (28 * SECOND..48 * SECOND).contains(&moment.now) {
+                    places_m.push(moment.truth.position_m);
+                }
+            };
+            simulation.fly_watched(flown, watch).unwrap();
+            let first_m = places_m[0];
+            let led_m =
+                places_m.iter().map(|place_m| (place_m - first_m).norm()).fold(0.0, f64::max);
+            let reached_m = first_m.xy().norm();
+            assert!(led_m < 0.3, "{profile:?} {roll} {pitch}: led on by {led_m:.2} m");
+            assert!(reached_m > 2.5, "{profile:?} {roll} {pitch}: {reached_m:.2} m");
+        }
+    }
+}
+
 /// After a gust that no drone could resist, the drone comes back, low, and lands inside.
 #[test]
 fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {

@@ -9,6 +9,7 @@ pub(super) const FINE: Situation = Situation {
     emergency: false,
     airborne: true,
     landing: false,
+    sticks: Sticks { roll: 0.0, pitch: 0.0, gaz: 0.0, yaw: 0.0 },
     pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
     velocity_m_s: [0.0; 3],
     soon: Motion {
@@ -261,6 +262,44 @@ fn targets_outside_the_fence_are_not_flown_to() {
         let AgentCommand::GoTo(inside) = command else { panic!("{command:?}") };
         assert!(monitor().fence.is_inside(&inside, FlightLimits::TOLERANCE_M), "{inside:?}");
     }
+}
+
+#[test]
+fn a_held_stick_is_stopped_at_one_place_until_it_leads_inside() {
+    let ahead = Sticks { pitch: -1.0, ..Sticks::default() };
+    let fast = |y_m: f64, up_m_s: f64, sticks: Sticks| {
+        let pose = Pose { y_m, ..FINE.pose };
+        Situation { sticks, ..moving(pose, [0.5, 3.0, up_m_s]) }
+    };
+    let mut monitor = monitor();
+    let mut check = |now: &Situation| match monitor.check(AgentCommand::Sticks, now) {
+        (AgentCommand::GoTo(stop), Some(Veto::NearFence)) => Some(stop),
+        (AgentCommand::Sticks, None) => None,
+        other => panic!("{other:?}"),
+    };
+    let stop = check(&fast(8.0, 0.4, ahead)).unwrap();
+    assert!((stop.x_m.hypot(stop.y_m) - 9.5).abs() < 1e-6 && stop.z_m > 1.2, "{stop:?}");
+    assert_eq!(check(&fast(8.5, 0.8, ahead)), Some(stop), "it climbs on, and goes along");
+    let rests = |sticks| Situation { sticks, ..moving(stop, [0.0; 3]) };
+    assert_eq!(check(&rests(ahead)), Some(stop));
+    let turned = Pose { yaw_deg: 180.0, ..stop };
+    let back = Situation { sticks: ahead, ..moving(turned, [0.0; 3]) };
+    assert_eq!(check(&back), None, "it looks back, and flies so");
+    for (roll, pitch) in [(1.0, 0.1), (-1.0, 0.0), (0.0, 0.0)] {
+        assert!(check(&fast(8.0, 0.4, ahead)).is_some());
+        let along = Sticks { roll, pitch, ..Sticks::default() };
+        assert_eq!(check(&rests(along)), None, "{roll} {pitch}");
+    }
+    // At the ceiling only what leads up is stopped.
+    let up = Sticks { gaz: 1.0, ..Sticks::default() };
+    let climbs = |z_m: f64, sticks| Situation {
+        sticks,
+        ..moving(Pose { z_m, ..FINE.pose }, [0.0, 0.0, 0.7])
+    };
+    let ceiling = check(&climbs(2.9, up)).unwrap();
+    assert_eq!(check(&climbs(2.8, up)), Some(ceiling));
+    let still = Situation { sticks: ahead, ..moving(ceiling, [0.0; 3]) };
+    assert_eq!(check(&still), None);
 }
 
 #[test]

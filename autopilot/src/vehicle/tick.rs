@@ -226,6 +226,7 @@ impl Vehicle {
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: !self.on_ground(),
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
+            sticks: self.life.manual().sticks(now).unwrap_or_default(),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
             soon: safety::Motion { pose: pose(soon), velocity_m_s: soon.velocity_m_s.into() },
