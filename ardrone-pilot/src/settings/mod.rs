@@ -255,6 +255,9 @@ mod tests {
             ("[drone]\ntilt_max = 3", "line 2, column 1"),
             ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),
             ("[drone", "line 1"),
+            ("[airframe]\nthrust_gain = [0.8, 0.9, 7.0]", "3 numbers where two"),
+            ("[airframe]\ndrag_1_s = [0.5]", "1 numbers"),
+            ("[tags]\nfocal_units = [1072.0, 1452.0, \"x\"]", "line 2"),
             ("[drone]\nnavdata = \"other\"", "`demo` or `full`"),
         ] {
             let error = Settings::parse("my.toml", text).unwrap_err().to_string();

@@ -109,13 +109,43 @@ impl<T: Copy> Setting<T> for T {
     }
 }
 
-impl Setting<Vector2<f64>> for [f64; 2] {
+/// Two numbers, and no more: an array would be read without what is behind its second value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>", into = "[f64; 2]")]
+pub(super) struct Pair([f64; 2]);
+
+impl TryFrom<Vec<f64>> for Pair {
+    type Error = String;
+
+    fn try_from(written: Vec<f64>) -> Result<Self, String> {
+        let count = written.len();
+        written.try_into().map(Self).map_err(|_| format!("{count} numbers where two are expected"))
+    }
+}
+
+impl From<Pair> for [f64; 2] {
+    fn from(pair: Pair) -> Self {
+        pair.0
+    }
+}
+
+impl Setting<Vector2<f64>> for Pair {
     fn of(value: &Vector2<f64>) -> Self {
-        (*value).into()
+        Self((*value).into())
     }
 
     fn value(&self) -> Vector2<f64> {
-        (*self).into()
+        self.0.into()
+    }
+}
+
+impl Setting<[f64; 2]> for Pair {
+    fn of(value: &[f64; 2]) -> Self {
+        Self(*value)
+    }
+
+    fn value(&self) -> [f64; 2] {
+        self.0
     }
 }
 
@@ -207,9 +237,9 @@ impl Numbers for u8 {
     }
 }
 
-impl Numbers for [f64; 2] {
+impl Numbers for Pair {
     fn numbers(&self) -> impl Iterator<Item = f64> {
-        self.iter().copied()
+        self.0.into_iter()
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use autopilot::vehicle::{VehicleConfig, VehicleName};
 use serde::{Deserialize, Serialize};
 
-use super::section::{BitRate, Degrees, Milliseconds, Navdata, section};
+use super::section::{BitRate, Degrees, Milliseconds, Navdata, Pair, section};
 
 /// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
@@ -75,8 +75,8 @@ section! {
         drop_gain: f64 = [estimator.airframe.drop_gain] in GAIN,
         climb_lag_s: f64 = [estimator.airframe.climb_lag_s] in 0.05..=3.0,
         /// Achieved acceleration over that of gravity at the same tilt, and linear drag (1/s); right and forward.
-        thrust_gain: [f64; 2] = [estimator.airframe.thrust_gain] in GAIN,
-        drag_1_s: [f64; 2] = [estimator.airframe.drag_1_s] in 0.0..=3.0,
+        thrust_gain: Pair = [estimator.airframe.thrust_gain] in GAIN,
+        drag_1_s: Pair = [estimator.airframe.drag_1_s] in 0.0..=3.0,
         /// Achieved over commanded yaw rate, and its lag in seconds.
         turn_gain: f64 = [estimator.airframe.turn_gain] in GAIN,
         turn_lag_s: f64 = [estimator.airframe.turn_lag_s] in 0.01..=1.0,

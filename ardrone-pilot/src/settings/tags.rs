@@ -6,7 +6,7 @@ use estimator::{MAX_TAGS, OrientationSign, SurveyedTag, TagConfig};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::section::{Milliseconds, Section as _, Setting, section};
+use super::section::{Milliseconds, Pair, Section as _, Setting, section};
 
 section! {
     struct Tags("tags") of TagConfig {
@@ -20,8 +20,8 @@ section! {
         /// Age of a sighting when its packet is sent.
         delay_ms: Milliseconds = [delay] in 0.0..=300.0,
         /// The bottom camera: focal length across and along, and centre, in thousandths of its picture.
-        focal_units: [f64; 2] = [focal_units] in 500.0..=3000.0,
-        centre_units: [f64; 2] = [centre_units] in 300.0..=700.0,
+        focal_units: Pair = [focal_units] in 500.0..=3000.0,
+        centre_units: Pair = [centre_units] in 300.0..=700.0,
         /// Direction in which the reported orientation grows: "clockwise" or "counterclockwise" with the drone, or "find" it in flight, for
         /// which the drone turns by 8 degrees to and fro above its first tag.
         orientation: Orientation = [orientation],
