@@ -103,8 +103,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "no fence",
         SAFETY,
-        "Self { fence, state",
-        "let fence = FlightLimits { z_origin: fence.z_origin, ..FlightLimits::NONE };\n        Self { fence, state",
+        "Self {\n            fence,",
+        "let fence = FlightLimits { z_origin: fence.z_origin, ..FlightLimits::NONE };\n        Self {\n            fence,",
     ),
     mutant(
         "no vetoes at all",
@@ -128,8 +128,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "floor and ceiling changed places",
         SAFETY,
-        "Self { fence, state",
-        "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self { fence, state",
+        "Self {\n            fence,",
+        "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
     ),
     layered(
         mutant(
