@@ -214,6 +214,7 @@ impl SafetyMonitor {
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
         self.brake = Brake::of(now, self.sticks.gaz, &self.fence);
+        self.stop = self.stop.filter(|_| command == AgentCommand::Sticks && now.airborne);
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
@@ -256,9 +257,6 @@ impl SafetyMonitor {
             return (descent.command(now, &self.fence), Some(descent.cause.veto()));
         }
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
-        if command != AgentCommand::Sticks {
-            self.stop = None;
-        }
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             AgentCommand::GoTo(target) => self.kept_inside(&target, now),

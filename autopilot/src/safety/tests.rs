@@ -290,6 +290,9 @@ fn a_held_stick_is_stopped_at_one_place_until_it_leads_inside() {
         let along = Sticks { roll, pitch, ..Sticks::default() };
         assert_eq!(check(&rests(along)), None, "{roll} {pitch}");
     }
+    assert!(check(&fast(8.0, 0.4, ahead)).is_some());
+    assert_eq!(check(&Situation { airborne: false, ..rests(ahead) }), None);
+    assert_eq!(check(&rests(ahead)), None, "the next flight is another");
     // At the ceiling only what leads up is stopped.
     let up = Sticks { gaz: 1.0, ..Sticks::default() };
     let climbs = |z_m: f64, sticks| Situation {
