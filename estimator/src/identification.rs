@@ -304,6 +304,7 @@ impl Identification {
             for learner in &mut self.thrust {
                 learner.window.answers.clear();
                 if turned {
+                    // Turned round, it differs by twice itself: by no more.
                     learner.bank.doubt(WIND, WIND_M_S2 * turned_deg.to_radians().min(2.0));
                 }
             }

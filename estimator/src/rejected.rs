@@ -99,7 +99,7 @@ mod tests {
         let Motion { rate_1_s, for_s, explains } = motion(|s| 3.0 * s, 4);
         assert!((rate_1_s - Vector2::new(1.8, -2.4)).norm() < 1e-9, "{rate_1_s}");
         assert!((for_s - 0.2).abs() < 1e-9 && (explains - 1.0).abs() < 1e-9);
-        // The last three of 0.1, 0.1, 0.2, 0.2 are twice 0.1 and once 0.2 of what 1 a second leads to.
+        // 0.1, 0.1, 0.2, 0.2 after 0.05, 0.1, 0.15, 0.2 s: products 0.085, squares of the time 0.075, of the values 0.1.
         let Motion { rate_1_s, explains, .. } = motion(|s| (s * 10.0).ceil() / 10.0, 4);
         assert!((rate_1_s.norm() - 0.085 / 0.075).abs() < 1e-9, "{rate_1_s}");
         assert!((explains - 0.085_f64.powi(2) / 0.075 / 0.1).abs() < 1e-9, "{explains}");
