@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ardrone_link::at::{Command, Datagram, Ref};
+use ardrone_link::at::{Command, Datagram, Motion, Ref};
 use ardrone_pilot::drive::{Driver, Passed, Simulated};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Border, Commands, FlightLimits};
@@ -464,5 +464,39 @@ fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
             !bench.outcomes.is_empty()
         });
         assert!(farthest_m < 4.8, "{farthest_m} m with numbers from {number}");
+    }
+}
+
+/// In a breeze a landing begins with a descent by our own orders, which another client drowns as well as it drowns the
+/// order to land: the drone must be made to hear those, too.
+#[test]
+fn an_ordered_landing_comes_down_in_a_breeze_although_another_client_flies_on() {
+    for number in [100_000, 2_000_000_000] {
+        let scenario = Scenario::parse("scenario", "0 wind 1.5 0").unwrap();
+        let mut bench = Bench::in_world(&WorldConfig { scenario, ..WorldConfig::default() });
+        bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));
+        bench.accepted(OperatorOrder::Load(plan("takeoff\nsetStayTime 60\ngoto 0 0 1 0\nland\n")));
+        bench.accepted(START);
+        bench.until(15 * SECOND, |bench| bench.truth().position_m.z > 1.7);
+        bench.run(2 * SECOND);
+        let height_m = bench.truth().position_m.z;
+        bench.accepted(OperatorOrder::Land);
+        let ordered = bench.driver.now();
+        let (mut number, mut next) = (number, ordered);
+        while bench.truth().phase == firmware::Phase::Flying
+            && bench.truth().position_m.z > height_m - 0.2
+        {
+            let taken = bench.driver.now() - ordered;
+            assert!(taken <= 2 * SECOND, "{number}: it is still up after {taken:?}");
+            if bench.driver.now() >= next {
+                let mut datagram = Datagram::new();
+                datagram.push(number, &Command::Ref(Ref::TakeOff)).unwrap();
+                datagram.push(number + 1, &Command::Pcmd(Motion::Hover)).unwrap();
+                bench.driver.surroundings.world.send_at(next, datagram.as_bytes());
+                (number, next) = (number + 2, next + Duration::from_millis(33));
+            }
+            bench.step();
+        }
+        assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
     }
 }

@@ -10,7 +10,7 @@ use pid::PositionController;
 
 use super::place::CrossChecks;
 use super::saturation::Saturation;
-use super::since::Since;
+use super::since::{Since, StaysUp};
 use super::{FlightReport, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::outcome::Outcome;
@@ -30,6 +30,9 @@ pub(super) struct Flight {
     pub(super) veto: Option<Veto>,
     /// Since when the drone does not tilt as it is told.
     pub(super) disobeys: Since,
+    /// Since when it does not sink although it is landed by our orders, and whether that was for too long.
+    pub(super) stays_up: StaysUp,
+    pub(super) ignores_descent: bool,
     /// Start of the fault that the drone currently reports, and of its emergency state.
     pub(super) fault: Since,
     pub(super) emergency: Since,
@@ -57,6 +60,8 @@ impl Flight {
             safety: SafetyMonitor::new(config.limits),
             veto: None,
             disobeys: Since::default(),
+            stays_up: StaysUp::default(),
+            ignores_descent: false,
             fault: Since::default(),
             emergency: Since::default(),
             down: Since::default(),

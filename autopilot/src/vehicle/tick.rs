@@ -21,6 +21,10 @@ use crate::wind::{Wind, without_drag};
 /// A drone obeys within this time and the link's delay, and then leans to within this share of full tilt.
 const OBEYS_WITHIN: Duration = Duration::from_millis(500);
 const DISOBEDIENT: f64 = 0.7;
+/// The slowest airframe has sunk by more than noise within this time and the link's delay.
+const SINKS_WITHIN: Duration = Duration::from_secs(1);
+/// Stick at which it is told to sink so fast.
+const SINKS: f32 = -0.5;
 /// Older navdata do not show whether it does.
 const HEARD: Duration = Duration::from_millis(150);
 
@@ -69,8 +73,9 @@ impl Vehicle {
             }
         }
         self.flight.veto = veto;
+        let command = if self.flight.ignores_descent { AgentCommand::Land } else { command };
         let order = self.carry_out(now, command, &soon, step_s);
-        self.watch_obedience(now, &order);
+        self.watch_obedience(now, &order, state.position_m.z);
         self.decision = Some(Decision {
             at: now,
             phase: self.life.phase(),
@@ -95,7 +100,10 @@ impl Vehicle {
 
     /// Notices a drone that does not tilt as it is told, and makes it listen: it may have heard higher numbers than ours, of
     /// another client. No wind and no airframe lets a drone lean the other way for so long.
-    fn watch_obedience(&mut self, now: Duration, order: &Order) {
+    ///
+    /// Nor does one that is told to land and to sink stay where it is: it lands by itself then, for which it need hear a
+    /// single order.
+    fn watch_obedience(&mut self, now: Duration, order: &Order, height_m: f64) {
         let full_deg = self.config.estimator.limits.tilt_rad.to_degrees();
         // Of what is not heard nothing is known.
         let heard = self.session.silence(now).is_some_and(|age| age <= HEARD);
@@ -107,8 +115,14 @@ impl Vehicle {
             }
             _ => 0.0,
         };
-        let within = OBEYS_WITHIN + self.flight.estimator.order_delay();
-        if self.flight.disobeys.lasts(now, off > DISOBEDIENT, within) {
+        let sinks = matches!(order.motion, Motion::Progressive { gaz, .. } if gaz.get() <= SINKS);
+        let delay = self.flight.estimator.order_delay();
+        let told = sinks && heard && self.lands();
+        self.flight.ignores_descent |=
+            self.flight.stays_up.lasts(now, told, height_m, SINKS_WITHIN + delay);
+        let leans_otherwise =
+            self.flight.disobeys.lasts(now, off > DISOBEDIENT, OBEYS_WITHIN + delay);
+        if leans_otherwise || self.flight.ignores_descent && !self.on_ground() {
             self.request(now, Request::Insist);
         }
     }
