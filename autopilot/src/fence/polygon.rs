@@ -76,6 +76,8 @@ pub(super) struct Polygon {
 #[derive(Debug, Clone, Copy)]
 struct Side {
     from_m: Vector2<f64>,
+    /// The very corner where the next side begins: a ray through a corner passes one of the two, which rounding decides alike.
+    to_m: Vector2<f64>,
     along: Vector2<f64>,
     length_m: f64,
     /// Unit vector out.
@@ -93,13 +95,9 @@ impl Side {
         (place_m - self.nearest_m(place_m)).norm()
     }
 
-    fn end_m(&self) -> Vector2<f64> {
-        self.from_m + self.along * self.length_m
-    }
-
     /// Where a ray passes the line through the side, if it does so on the side. Of two sides with a common corner one has it.
     fn crossed_at_m(&self, from_m: Vector2<f64>, heading: Vector2<f64>) -> Option<f64> {
-        let [a, b] = [self.from_m - from_m, self.end_m() - from_m];
+        let [a, b] = [self.from_m - from_m, self.to_m - from_m];
         let [left, right] = [cross(heading, a), cross(heading, b)];
         ((left >= 0.0) != (right >= 0.0))
             .then(|| (a + (b - a) * (left / (left - right))).dot(&heading))
@@ -133,7 +131,7 @@ impl Side {
             .map(|(a, b)| [a[0].max(b[0]), a[1].min(b[1])])
             .filter(|[begins, ends]| begins <= ends);
         // The three overlap.
-        let parts = [around(self.from_m), around(self.end_m()), beside];
+        let parts = [around(self.from_m), around(self.to_m), beside];
         parts.into_iter().flatten().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 }
@@ -166,7 +164,7 @@ impl Polygon {
         if let Some((one, other)) = polygon.meeting() {
             return Err(BorderError::Meets(one + 1, other + 1));
         }
-        let area_m2: f64 = polygon.sides().map(|side| cross(side.from_m, side.end_m()) / 2.0).sum();
+        let area_m2: f64 = polygon.sides().map(|side| cross(side.from_m, side.to_m) / 2.0).sum();
         polygon.is_left = area_m2 > 0.0;
         if area_m2.abs() < LEAST_AREA_M2 {
             return Err(BorderError::Small { area_m2: area_m2.abs() });
@@ -188,8 +186,8 @@ impl Polygon {
             }
             let touch = |side: &Side, end_m| side.distance_m(end_m) < MEETS_M;
             let [begins, ends] = [
-                touch(one, other.end_m()) || touch(other, one.from_m),
-                touch(one, other.from_m) || touch(other, one.end_m()),
+                touch(one, other.to_m) || touch(other, one.from_m),
+                touch(one, other.from_m) || touch(other, one.to_m),
             ];
             // Those with a common corner meet elsewhere if the far end of one lies on the other.
             if j - i == 1 {
@@ -200,7 +198,7 @@ impl Polygon {
             }
             let crosses = |a: &Side, b: &Side| {
                 let side_of = |place_m| cross(a.along, place_m - a.from_m) >= 0.0;
-                side_of(b.from_m) != side_of(b.end_m())
+                side_of(b.from_m) != side_of(b.to_m)
             };
             begins || ends || crosses(one, other) && crosses(other, one)
         };
@@ -222,7 +220,7 @@ impl Polygon {
             let length_m = (to_m - from_m).norm();
             let along = (to_m - from_m) / length_m.max(f64::EPSILON);
             let right = Vector2::new(along.y, -along.x);
-            Side { from_m, along, length_m, out: if self.is_left { right } else { -right } }
+            Side { from_m, to_m, along, length_m, out: if self.is_left { right } else { -right } }
         })
     }
 

@@ -78,6 +78,16 @@ proptest! {
     }
 
     /// The way ends at the border, and nowhere before it is further outside.
+    /// A ray through a corner passes one of its two sides, whatever is rounded.
+    #[test]
+    fn the_way_to_a_corner_ends_there(border in star()) {
+        let Shape::Polygon(corners_m) = border.shape() else { panic!("a star has corners") };
+        for corner_m in corners_m.iter().map(|[x_m, y_m]| at(*x_m, *y_m)) {
+            let room_m = border.room_m(at(0.0, 0.0), corner_m.normalize(), 0.0);
+            prop_assert!(room_m > 0.99 * corner_m.norm(), "{corner_m}: {room_m} m");
+        }
+    }
+
     #[test]
     fn the_way_to_the_border_ends_at_the_border(
         border in star(),
