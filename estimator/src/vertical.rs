@@ -88,6 +88,9 @@ impl Agreeing {
 /// Standard deviation of the climb that an order asks for which the drone, perhaps, has not received.
 const UNHEARD_M_S: f64 = 0.9;
 
+/// Standard deviation of the share by which an airframe follows an order to climb otherwise than the model, in gain and lag.
+const FOLLOWED: f64 = 0.3;
+
 /// What is measured: the height above the floor below.
 const ABOVE_FLOOR: Vector3<f64> = Vector3::new(1.0, 0.0, -1.0);
 
@@ -99,6 +102,14 @@ fn unheard(time_s: f64) -> Matrix3<f64> {
     let lag_s = Airframe::default().climb_lag_s;
     let followed = 1.0 - (-time_s / lag_s).exp();
     let changed = UNHEARD_M_S * Vector3::new(time_s - lag_s * followed, followed, 0.0);
+    changed * changed.transpose()
+}
+
+/// Covariance of a change of the climb that the model has made of an order within a time: the airframe's answer may be another
+/// one. What is left of the change is as uncertain as what is made of it, hence the lag.
+fn followed(changed_m_s: f64, step_s: f64) -> Matrix3<f64> {
+    let share = FOLLOWED * (Airframe::default().climb_lag_s / step_s).sqrt();
+    let changed = share * changed_m_s * Vector3::new(step_s / 2.0, 1.0, 0.0);
     changed * changed.transpose()
 }
 
@@ -143,9 +154,11 @@ impl AltitudeFilter {
         if step_s <= 0.0 {
             return Echo::Good;
         }
-        self.covariance = self.covariance_after(step_s, order);
+        let changed_m_s = expected.climb_m_s - self.state().climb_m_s;
+        self.covariance = self.covariance_after(step_s, order) + followed(changed_m_s, step_s);
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        if surprise_m.abs() <= Self::AGREEMENT_M && !self.agreeing.is_nearer_to(surprise_m) {
+        let is_close = surprise_m.abs() <= Self::AGREEMENT_M && self.expects_closely();
+        if is_close && !self.agreeing.is_nearer_to(surprise_m) {
             self.accept(surprise_m, expected);
             return Echo::Good;
         }
@@ -168,6 +181,12 @@ impl AltitudeFilter {
         moved * self.covariance * moved.transpose()
             + disturbed_m_s * disturbed_m_s * step_s * disturbed
             + unheard((step_s - USUAL_STEP_S).max(0.0))
+    }
+
+    /// Whether one height beside the expected one confirms it. After a gap, a wrong echo would be beside it, too.
+    fn expects_closely(&self) -> bool {
+        let expected_m2 = ABOVE_FLOOR.dot(&(self.covariance * ABOVE_FLOOR));
+        expected_m2 <= Self::AGREEMENT_M * Self::AGREEMENT_M
     }
 
     /// Variance of the difference between a height and the expected one.

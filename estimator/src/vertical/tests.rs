@@ -1,9 +1,11 @@
 use super::*;
 use kinematics::Sticks;
 
+const STEP_S: f64 = 0.066;
+
 fn run(filter: &mut AltitudeFilter, altitudes_m: impl IntoIterator<Item = f64>) -> Vec<Echo> {
     let (airframe, limits) = (Airframe::default(), DroneLimits::default());
-    let step_s = 0.066;
+    let step_s = STEP_S;
     let mut echoes = Vec::new();
     for altitude_m in altitudes_m {
         let mut expected = filter.state();
@@ -63,9 +65,49 @@ fn a_wrong_echo_behind_a_gap_is_ignored_too() {
     run(&mut filter, [1.0; 50]);
     assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
     assert!(now_m(&filter) > 0.39, "it is still undecided");
+    // Nor does a single one decide it that is beside the expected height.
+    assert_eq!(run(&mut filter, [1.0]), [Echo::Wrong]);
+    assert!(now_m(&filter) > AltitudeFilter::AGREEMENT_M, "it is undecided still");
     assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
     assert!((filter.state().height_m - 1.0).abs() < 0.01);
     assert!(now_m(&filter) < ULTRASOUND_M);
+}
+
+/// The drone landed by itself in the gap, and the first echo is a wrong one, just at the height where it was expected.
+#[test]
+fn a_wrong_echo_at_the_expected_height_behind_a_gap_makes_no_floor_step_of_a_descent() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.2; 50]);
+    after_a_gap(&mut filter, 5.0, 1.15);
+    for below_m in [0.73, 0.72, 0.70, 0.67, 0.65, 0.62] {
+        let expected = filter.state();
+        assert_ne!(filter.correct(below_m, expected, STEP_S, Order::ByItself), Echo::FloorStep);
+    }
+    let off_m = (filter.state().height_m - 0.62).abs();
+    assert!(off_m < 3.0 * now_m(&filter), "{off_m} m, {} m told", now_m(&filter));
+}
+
+/// What the model makes of an order the airframe may not: how far it is off is known meanwhile.
+#[test]
+fn an_airframe_that_follows_an_order_later_than_the_model_flies_over_no_box() {
+    let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+    let climbs = Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() });
+    let mut filter = hovering(0.85);
+    let mut truth = still(0.85);
+    for step in 0..20_u32 {
+        let mut expected = filter.state();
+        expected.advance(STEP_S, climbs, &airframe, &limits);
+        // It follows half a second later.
+        truth.advance(STEP_S, if step < 8 { Order::ByItself } else { climbs }, &airframe, &limits);
+        let echo = filter.correct(truth.height_m, expected, STEP_S, climbs);
+        assert_ne!(echo, Echo::FloorStep, "at step {step}");
+        let off_m = (filter.state().height_m - truth.height_m).abs();
+        assert!(
+            off_m < 3.0 * now_m(&filter),
+            "at step {step}: {off_m} m, {} m told",
+            now_m(&filter)
+        );
+    }
 }
 
 #[test]
@@ -157,13 +199,17 @@ fn still(height_m: f64) -> Vertical {
 fn the_longer_a_height_was_not_measured_the_more_the_next_one_counts() {
     let corrected_m = |order, step_s| {
         let mut filter = hovering(1.0);
-        assert_eq!(filter.correct(1.09, still(1.0), step_s, order), Echo::Good);
+        // Behind a gap a first one confirms nothing.
+        filter.correct(1.09, still(1.0), step_s, order);
+        if step_s > STEP_S {
+            assert_eq!(filter.correct(1.09, still(1.0), STEP_S, order), Echo::Good);
+        }
         filter.state().height_m - 1.0
     };
     let by_sticks = Order::Sticks(Sticks::default());
-    let usual_m = corrected_m(by_sticks, 0.066);
+    let usual_m = corrected_m(by_sticks, STEP_S);
     assert!((0.025..0.035).contains(&usual_m), "{usual_m}");
-    assert!(corrected_m(Order::ByItself, 0.066) > usual_m);
+    assert!(corrected_m(Order::ByItself, STEP_S) > usual_m);
     let late_m = corrected_m(by_sticks, 0.5);
     assert!((0.08..0.09).contains(&late_m), "{late_m}");
     // A height of the same instant has no weight.
