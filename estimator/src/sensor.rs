@@ -1,4 +1,4 @@
-//! What the sensors of an AR.Drone can measure: ranges and noise.
+//! What the sensors of an AR.Drone can measure, ranges and noise, and how well a model foretells it.
 
 use crate::Sample;
 use crate::trust::Quantity;
@@ -21,6 +21,8 @@ pub(crate) const COMPASS_DEG: f64 = 0.3;
 pub(crate) const ATTITUDE_DEG: f64 = 0.4;
 /// Standard deviation of the flow's scale, as a fraction of the way.
 pub(crate) const FLOW_SCALE: f64 = 0.06;
+/// Standard deviation of a change that the model of the airframe makes of an order, as a fraction of the change.
+pub(crate) const MODEL: f64 = 0.2;
 
 /// The quantity of a sample whose value is impossible for an AR.Drone.
 pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {

@@ -3,15 +3,13 @@
 use nalgebra::Vector2;
 
 use crate::rejected::{Motion, Rejected, Shown};
-use crate::sensor::{FLOW_M_S, GATE};
+use crate::sensor::{FLOW_M_S, GATE, MODEL};
 use crate::silence::{Silence, USUAL_STEP_S};
 
 /// Standard deviation of what gusts and an airframe that is not identified yet add to the velocity, and the time within
 /// which they do.
 const GUST_M_S: f64 = 0.13;
 const GUST_S: f64 = 0.1;
-/// The model of the airframe may be wrong by this share of the change that it predicts, once that lasts longer.
-const MODEL_SHARE: f64 = 0.2;
 /// After a jump the velocity must come back to this fraction of the allowed difference.
 const RETURN_SHARE: f64 = 0.5;
 /// Largest difference between measured and expected velocity beyond that, however it came about.
@@ -140,7 +138,8 @@ impl VelocityGate {
         let gust_m_s = GUST_M_S * (1.0 - (-step_s / GUST_S).exp());
         let allowed_m_s = GATE * (std::f64::consts::SQRT_2 * FLOW_M_S).hypot(gust_m_s);
         let gap_s = (step_s - USUAL_STEP_S).max(0.0);
-        let share = MODEL_SHARE * gap_s / (gap_s + USUAL_STEP_S);
+        // A change in a shorter time is within what gusts do.
+        let share = MODEL * gap_s / (gap_s + USUAL_STEP_S);
         let surprise_m_s = foreseen.off_m_s(measured_m_s, share);
         let changed_m_s = foreseen.before_m_s + measured_m_s - last_m_s;
         let unforeseen_m_s = foreseen.off_m_s(changed_m_s, share);

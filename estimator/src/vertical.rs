@@ -5,7 +5,7 @@
 
 use crate::orders::Order;
 use crate::rejected::{Rejected, Shown};
-use crate::sensor::{GATE, ULTRASOUND_M};
+use crate::sensor::{GATE, MODEL, ULTRASOUND_M};
 use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
 use nalgebra::{Matrix3, Vector1, Vector3};
@@ -88,9 +88,6 @@ impl Agreeing {
 /// Standard deviation of the climb that an order asks for which the drone, perhaps, has not received.
 const UNHEARD_M_S: f64 = 0.9;
 
-/// Standard deviation of the share by which an airframe follows an order to climb otherwise than the model, in gain and lag.
-const FOLLOWED: f64 = 0.3;
-
 /// What is measured: the height above the floor below.
 const ABOVE_FLOOR: Vector3<f64> = Vector3::new(1.0, 0.0, -1.0);
 
@@ -108,7 +105,7 @@ fn unheard(time_s: f64) -> Matrix3<f64> {
 /// Covariance of a change of the climb that the model has made of an order within a time: the airframe's answer may be another
 /// one. What is left of the change is as uncertain as what is made of it, hence the lag.
 fn followed(changed_m_s: f64, step_s: f64) -> Matrix3<f64> {
-    let share = FOLLOWED * (Airframe::default().climb_lag_s / step_s).sqrt();
+    let share = MODEL * (Airframe::default().climb_lag_s / step_s).sqrt();
     let changed = share * changed_m_s * Vector3::new(step_s / 2.0, 1.0, 0.0);
     changed * changed.transpose()
 }
