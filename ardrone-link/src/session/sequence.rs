@@ -70,17 +70,16 @@ impl SequenceNumbers {
         if self.leapt { self.contest() } else { self.leap() }
     }
 
-    /// The drone does not do what it is told: the numbers stay contested for one datagram more.
+    /// The drone does not do what it is told: the numbers are contested for one datagram more, and in a landing until it is
+    /// down. A drone that obeys again has heard our far number, so that the numbers go on behind it.
     pub(super) fn insist(&mut self) {
         self.insists = true;
+        self.contested.get_or_insert(false);
     }
 
     /// The drone has obeyed, or need not any more.
     pub(super) fn settle(&mut self) {
-        if std::mem::take(&mut self.insists) {
-            // A drone that obeys again has heard our far number, so that the numbers go on behind it.
-            self.contested.get_or_insert(false);
-        } else {
+        if !std::mem::take(&mut self.insists) {
             self.contested = None;
             self.leapt = false;
         }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::{ControlState, DroneState};
-use ardrone_link::session::{Input, Order, Request};
+use ardrone_link::session::{FlightOrder, Input, Order, Request};
 use estimator::Prediction;
 use kinematics::{GRAVITY_M_S2, Pose};
 
@@ -115,7 +115,11 @@ impl Vehicle {
             }
             _ => 0.0,
         };
-        let sinks = matches!(order.motion, Motion::Progressive { gaz, .. } if gaz.get() <= SINKS);
+        // In a landing it hovers only while it does not know enough to sink by its sticks.
+        let sinks = match order.motion {
+            Motion::Progressive { gaz, .. } => gaz.get() <= SINKS,
+            Motion::Hover => order.flight == FlightOrder::StayAirborne,
+        };
         let delay = self.flight.estimator.order_delay();
         let told = sinks && heard && self.lands();
         self.flight.ignores_descent |=

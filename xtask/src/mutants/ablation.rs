@@ -71,8 +71,8 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "an unlikely echo",
         VERTICAL,
-        "if surprise_m.abs() <= Self::AGREEMENT_M && !self.agreeing.is_nearer_to(surprise_m) {",
-        "if surprise_m.abs() <= Self::AGREEMENT_M.max(f64::MAX) {",
+        "if is_close && !self.agreeing.is_nearer_to(surprise_m) {",
+        "if is_close || surprise_m.is_finite() {",
     ),
     without(
         "steps of heading and floor that come too often",
