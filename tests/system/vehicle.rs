@@ -467,6 +467,33 @@ fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
     }
 }
 
+/// Another client flies on until the drone lands, for at most three seconds; its numbers begin far above ours.
+fn drown(bench: &mut Bench, first: u32, every: Duration, gaz: f64) {
+    let begun = bench.driver.now();
+    let [roll, pitch, yaw, gaz] = [0.0, 0.0, 0.0, gaz].map(Fraction::saturating);
+    let motion = Motion::Progressive { roll, pitch, gaz, yaw };
+    let (mut number, mut next) = (first, begun);
+    while bench.truth().phase == firmware::Phase::Flying {
+        let taken = bench.driver.now().saturating_sub(begun);
+        assert!(taken <= 3 * SECOND, "from {first}, every {every:?}, {gaz:?}: it is still up");
+        while bench.driver.now() >= next {
+            let mut datagram = Datagram::new();
+            datagram.push(number, &Command::Ref(Ref::TakeOff)).unwrap();
+            datagram.push(number + 1, &Command::Pcmd(motion)).unwrap();
+            bench.driver.surroundings.world.send_at(next, datagram.as_bytes());
+            (number, next) = (number + 2, next + every);
+        }
+        bench.step();
+    }
+}
+
+/// A vehicle in a breeze, in standby with this plan.
+fn in_a_breeze(text: &str) -> Bench {
+    let mut bench = Bench::standing_by("0 wind 1.5 0");
+    bench.accepted(OperatorOrder::Load(plan(text)));
+    bench
+}
+
 /// In a breeze a landing begins with a descent by our own orders, which another client drowns as well as it drowns the
 /// order to land, whenever it begins: the drone must be made to hear those, too.
 #[test]
@@ -474,37 +501,26 @@ fn an_ordered_landing_comes_down_in_a_breeze_although_another_client_flies_on() 
     let begins = [0, 300, 500, 1000, 1500].into_iter();
     let streams = [(100_000, 33), (2_000_000_000, 3), (2_000_000_000, 50)];
     let others = streams.into_iter().flat_map(|stream| [0.0, 1.0].map(|gaz| (stream, gaz)));
-    for (after_ms, ((number, every_ms), gaz)) in
+    for (after_ms, ((first, every_ms), gaz)) in
         begins.flat_map(|after_ms| others.clone().map(move |other| (after_ms, other)))
     {
-        let scenario = Scenario::parse("scenario", "0 wind 1.5 0").unwrap();
-        let mut bench = Bench::in_world(&WorldConfig { scenario, ..WorldConfig::default() });
-        bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));
-        bench.accepted(OperatorOrder::Load(plan("takeoff\nsetStayTime 60\ngoto 0 0 1 0\nland\n")));
+        let mut bench = in_a_breeze("takeoff\nsetStayTime 60\ngoto 0 0 1 0\nland\n");
         bench.accepted(START);
         bench.until(15 * SECOND, |bench| bench.truth().position_m.z > 1.7);
         bench.run(2 * SECOND);
         bench.accepted(OperatorOrder::Land);
         bench.run(Duration::from_millis(after_ms));
-        let begun = bench.driver.now();
-        let [roll, pitch, yaw, gaz] = [0.0, 0.0, 0.0, gaz].map(Fraction::saturating);
-        let motion = Motion::Progressive { roll, pitch, gaz, yaw };
-        let (mut number, mut next) = (number, begun);
-        while bench.truth().phase == firmware::Phase::Flying {
-            let taken = bench.driver.now().saturating_sub(begun);
-            assert!(
-                taken <= 3 * SECOND,
-                "{number} after {after_ms} ms, every {every_ms} ms, {gaz:?}: it is still up"
-            );
-            while bench.driver.now() >= next {
-                let mut datagram = Datagram::new();
-                datagram.push(number, &Command::Ref(Ref::TakeOff)).unwrap();
-                datagram.push(number + 1, &Command::Pcmd(motion)).unwrap();
-                bench.driver.surroundings.world.send_at(next, datagram.as_bytes());
-                (number, next) = (number + 2, next + Duration::from_millis(every_ms));
-            }
-            bench.step();
-        }
+        drown(&mut bench, first, Duration::from_millis(every_ms), gaz);
         assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
     }
+}
+
+/// Nobody takes that for a drone that lands unasked.
+#[test]
+fn a_plan_whose_last_landing_another_client_drowns_is_flown_to_its_end() {
+    let mut bench = in_a_breeze("takeoff\ngoto 0 0 1 0\nland\n");
+    bench.accepted(START);
+    bench.until(30 * SECOND, |bench| bench.count(&FlightEvent::StepStarted { step: 2 }) > 0);
+    drown(&mut bench, 2_000_000_000, Duration::from_millis(33), 0.0);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
 }

@@ -60,8 +60,9 @@ impl Vehicle {
             self.order_ended(now, report);
         }
         done(Stage::Agent);
-        // An agent without a command hovers.
+        // An agent without a command hovers. A way down by our orders that the drone does not hear is left to the drone.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
+        let wanted = if self.flight.ignores_descent { AgentCommand::Land } else { wanted };
         // An order acts after a delay: by then the drone does what it has been sent before.
         let soon = self.state(now + self.flight.estimator.order_delay());
         let situation = self.situation(now, &state, &soon);
@@ -73,7 +74,6 @@ impl Vehicle {
             }
         }
         self.flight.veto = veto;
-        let command = if self.flight.ignores_descent { AgentCommand::Land } else { command };
         let order = self.carry_out(now, command, &soon, step_s);
         self.watch_obedience(now, &order, state.position_m.z);
         self.decision = Some(Decision {
