@@ -515,10 +515,10 @@ fn an_ordered_landing_comes_down_in_a_breeze_although_another_client_flies_on() 
     }
 }
 
-/// Nobody takes that for a drone that lands unasked.
+/// Nobody takes that for a drone that lands unasked, nor for the end of the plan.
 #[test]
-fn a_plan_whose_last_landing_another_client_drowns_is_flown_to_its_end() {
-    let mut bench = in_a_breeze("takeoff\ngoto 0 0 1 0\nland\n");
+fn a_plan_whose_landing_another_client_drowns_is_flown_to_its_end() {
+    let mut bench = in_a_breeze("takeoff\ngoto 0 0 1 0\nland\ntakeoff\ngoto 0 0 1 0\nland\n");
     bench.accepted(START);
     bench.until(30 * SECOND, |bench| bench.count(&FlightEvent::StepStarted { step: 2 }) > 0);
     drown(&mut bench, 2_000_000_000, Duration::from_millis(33), 0.0);

@@ -122,11 +122,13 @@ impl Vehicle {
         };
         let delay = self.flight.estimator.order_delay();
         let told = sinks && heard && self.lands();
-        self.flight.ignores_descent |=
-            self.flight.stays_up.lasts(now, told, height_m, SINKS_WITHIN + delay);
+        let stays_up = self.flight.stays_up.lasts(now, told, height_m, SINKS_WITHIN + delay);
+        // What is flown after that landing is another matter.
+        self.flight.ignores_descent =
+            (self.flight.ignores_descent || stays_up) && !self.on_ground();
         let leans_otherwise =
             self.flight.disobeys.lasts(now, off > DISOBEDIENT, OBEYS_WITHIN + delay);
-        if leans_otherwise || self.flight.ignores_descent && !self.on_ground() {
+        if leans_otherwise || self.flight.ignores_descent {
             self.request(now, Request::Insist);
         }
     }
