@@ -182,13 +182,17 @@ impl AltitudeFilter {
 
     /// Whether one height beside the expected one confirms it. After a gap, a wrong echo would be beside it, too.
     fn expects_closely(&self) -> bool {
-        let expected_m2 = ABOVE_FLOOR.dot(&(self.covariance * ABOVE_FLOOR));
-        expected_m2 <= Self::AGREEMENT_M * Self::AGREEMENT_M
+        self.expected_m2() <= Self::AGREEMENT_M * Self::AGREEMENT_M
+    }
+
+    /// Variance of the expected height above the floor below.
+    fn expected_m2(&self) -> f64 {
+        ABOVE_FLOOR.dot(&(self.covariance * ABOVE_FLOOR))
     }
 
     /// Variance of the difference between a height and the expected one.
     fn surprise_m2(&self) -> f64 {
-        ABOVE_FLOOR.dot(&(self.covariance * ABOVE_FLOOR)) + ULTRASOUND_M * ULTRASOUND_M
+        self.expected_m2() + ULTRASOUND_M * ULTRASOUND_M
     }
 
     fn accept(&mut self, surprise_m: f64, expected: Vertical) {

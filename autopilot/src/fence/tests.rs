@@ -77,7 +77,6 @@ proptest! {
         prop_assert!((moved(there_m, 0) - there_m).norm() <= FlightLimits::TOLERANCE_M);
     }
 
-    /// The way ends at the border, and nowhere before it is further outside.
     /// A ray through a corner passes one of its two sides, whatever is rounded.
     #[test]
     fn the_way_to_a_corner_ends_there(border in star()) {
@@ -88,6 +87,7 @@ proptest! {
         }
     }
 
+    /// The way ends at the border, and nowhere before it is further outside.
     #[test]
     fn the_way_to_the_border_ends_at_the_border(
         border in star(),
