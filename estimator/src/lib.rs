@@ -77,7 +77,7 @@ use crate::noise::NoiseOfAll;
 use crate::orders::Orders;
 use crate::repetition::Repetitions;
 use crate::response::{Measured, Response};
-use crate::silence::USUAL_STEP_S;
+use crate::silence::{GAP_S, USUAL_STEP_S};
 use crate::uncertainty::Uncertainty;
 use crate::velocity_gate::{Foreseen, Judged, VelocityGate};
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
@@ -228,8 +228,6 @@ impl Default for Estimator {
 /// Longest gap that is bridged by the mean of the velocities around it. A drone that receives nothing hovers
 /// and then lands by itself.
 const MAX_STEP_S: f64 = 3.0;
-/// Lateness of navdata, compared with the usual, beyond which they are out of date.
-const MAX_LATENESS_S: f64 = 0.3;
 /// A repeated altitude after this time is a new measurement with the same value: the ultrasound measures 22
 /// or 25 times per second.
 const ALTITUDE_INTERVAL_S: f64 = 0.05;
@@ -299,7 +297,7 @@ impl Estimator {
         let lateness_s = arrival_s - made_s;
         self.heading.hear(made_s);
         self.velocity_gate.hear(made_s);
-        let is_news = lateness_s <= MAX_LATENESS_S;
+        let is_news = lateness_s <= GAP_S;
         let against = |cause: Cause| {
             move |quantity: Quantity| Evidence { quantity, cause, since_s: arrival_s }
         };

@@ -9,10 +9,9 @@ use kinematics::{DroneLimits, GRAVITY_M_S2, wrap_deg};
 
 use crate::Sample;
 use crate::sensor::{ATTITUDE_DEG, COMPASS_DEG, FLOW_M_S, ULTRASOUND_M};
+use crate::silence::GAP_S;
 use crate::trust::Quantity;
 
-/// Three values over a longer time may bend by anything.
-const LONGEST_S: f64 = 0.3;
 /// A deviation counts by its square in units of the noise, but at most this much...
 const MOST: f64 = 9.0;
 /// ...less this much, so that noise up to 1.7 times the sensor's own is forgotten.
@@ -115,7 +114,7 @@ impl Noise {
             return self.is_enough();
         };
         let whole_s = at_s - from_s;
-        if whole_s > LONGEST_S {
+        if whole_s > GAP_S {
             return self.is_enough();
         }
         let [before_s, after_s] = [middle_s - from_s, at_s - middle_s];

@@ -14,15 +14,21 @@ const MAX_TILT_RAD: f64 = 1.2;
 
 /// What is further from what is expected than this many standard deviations is something else.
 pub(crate) const GATE: f64 = 5.0;
+/// Of two explanations one is the right one if what was measured is this many standard deviations from the other.
+pub(crate) const CLEAR: f64 = 3.0;
 /// White noise of the worse sensors, after their own filters: standard deviations.
 pub(crate) const FLOW_M_S: f64 = 0.05;
 pub(crate) const ULTRASOUND_M: f64 = 0.02;
 pub(crate) const COMPASS_DEG: f64 = 0.3;
 pub(crate) const ATTITUDE_DEG: f64 = 0.4;
+/// Orientation of a tag, larger than it is because consecutive errors are correlated.
+pub(crate) const ORIENTATION_DEG: f64 = 8.0;
 /// Standard deviation of the flow's scale, as a fraction of the way.
 pub(crate) const FLOW_SCALE: f64 = 0.06;
 /// Standard deviation of a change that the model of the airframe makes of an order, as a fraction of the change.
 pub(crate) const MODEL: f64 = 0.2;
+/// Standard deviation of the disturbance on an axis of the body, before anything is known of it.
+pub(crate) const WIND_M_S2: f64 = 0.3;
 
 /// The quantity of a sample whose value is impossible for an AR.Drone.
 pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {

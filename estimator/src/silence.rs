@@ -4,6 +4,9 @@
 /// Longest interval between packets that counts as gapless.
 pub(crate) const USUAL_STEP_S: f64 = 0.1;
 
+/// After a longer one it is not known what moved the drone meanwhile, and news as late are none.
+pub(crate) const GAP_S: f64 = 0.3;
+
 /// A drone that receives nothing keeps its last sticks for this long; then it hovers by itself.
 pub(crate) const KEPT_S: f64 = 2.0;
 /// Which order it received last is unknown: the largest number of them that are tried.

@@ -5,7 +5,7 @@
 
 use crate::orders::Order;
 use crate::rejected::{Rejected, Shown};
-use crate::sensor::{GATE, MODEL, ULTRASOUND_M};
+use crate::sensor::{CLEAR, GATE, MODEL, ULTRASOUND_M};
 use crate::silence::USUAL_STEP_S;
 use kinematics::{Airframe, DroneLimits};
 use nalgebra::{Matrix3, Vector1, Vector3};
@@ -116,8 +116,6 @@ impl AltitudeFilter {
     const STEERED_M_S: f64 = 0.05;
     /// ...and while it moves autonomously.
     const BY_ITSELF_M_S: f64 = 0.1;
-    /// Within this many standard deviations it is likelier that the drone climbed than that it flies over a box.
-    const LIKELIER: f64 = 3.0;
     /// Difference between heights that the noise of the ultrasound explains. In a gap a larger one is accepted when the
     /// next height agrees: the first may be a wrong echo. They agree in their heights or in their differences to the
     /// expected ones: the drone may hold its height, or move as expected.
@@ -218,7 +216,8 @@ impl AltitudeFilter {
         self.agreeing = if before.rejected.count() > 0 && agrees {
             before
         } else {
-            let is_climb = surprise_m.abs() <= Self::LIKELIER * self.surprise_m2().sqrt();
+            // Likelier than that it flies over a box.
+            let is_climb = surprise_m.abs() <= CLEAR * self.surprise_m2().sqrt();
             Agreeing { is_climb, ..Agreeing::default() }
         };
         let agreeing = &mut self.agreeing;

@@ -12,7 +12,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
-use crate::sensor::{FLOW_SCALE, GATE};
+use crate::sensor::{FLOW_SCALE, GATE, ORIENTATION_DEG};
 use kinematics::{world_from_body, wrap_deg, wrap_rad};
 
 const PLACE: usize = 0;
@@ -45,8 +45,6 @@ const SIGHT_HEIGHT: f64 = 0.03;
 const SIGHT_ASIDE: f64 = 0.06;
 const SIGHT_AGE_S: f64 = 0.06;
 const SIGHT_M: f64 = 0.01;
-/// Standard deviation of one orientation.
-const ORIENTATION_DEG: f64 = 8.0;
 /// Standard deviation of a mean orientation.
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
 

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use nalgebra::Vector2;
 
 use super::OdometryStep;
+use crate::silence::USUAL_STEP_S;
 
 /// More than a second of navdata at 200 packets per second.
 const MEMORY: usize = 220;
@@ -104,12 +105,11 @@ fn between<T: Copy>(
 
 /// Extrapolates with the velocity for a moment beyond the newest position.
 fn place_at(places: &Places, at_s: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
-    const LONGEST_S: f64 = 0.1;
     let (place_m, velocity_m_s) = between(places, at_s, |from, to, share| {
         (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share)
     })?;
     let ahead_s = places.back().map_or(0.0, |(newest_s, _)| at_s - newest_s);
-    Some((place_m + velocity_m_s * ahead_s.clamp(0.0, LONGEST_S), velocity_m_s))
+    Some((place_m + velocity_m_s * ahead_s.clamp(0.0, USUAL_STEP_S), velocity_m_s))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! decides.
 
 use super::SLOTS;
+use crate::sensor::ORIENTATION_DEG;
 use kinematics::wrap_deg;
 
 /// Direction in which the reported orientation grows.
@@ -31,8 +32,6 @@ impl OrientationSign {
 
 /// Reported orientation when the drone is aligned with the tag.
 const ALONG_DEG: f64 = 270.0;
-/// Standard deviation of one orientation, chosen large because consecutive errors are correlated.
-const NOISE_DEG: f64 = 8.0;
 /// Limit of the evidence of one sighting: it may be of something else.
 const MOST_EVIDENCE: f64 = 1.0;
 /// Logarithm of the odds that decides, and at which the odds are limited.
@@ -121,7 +120,7 @@ impl Orientation {
         known_deg: Option<f64>,
         deviation_deg: f64,
     ) -> f64 {
-        let variance_deg2 = NOISE_DEG.powi(2) + deviation_deg.powi(2);
+        let variance_deg2 = ORIENTATION_DEG.powi(2) + deviation_deg.powi(2);
         let most = 360.0 / (std::f64::consts::TAU * variance_deg2).sqrt();
         let odds = |reading: usize| {
             let (mean, trial) = (&self.means[known][reading], &self.trials[trial][reading]);
@@ -150,7 +149,8 @@ impl Orientation {
         // The mean of both is the angle by which the drone has turned.
         let turned_deg = f64::midpoint(off[0], off[1]).abs();
         if means[0].sights > LEAST && turned_deg > LEAST_TURN_DEG {
-            let evidence = (off[1].powi(2) - off[0].powi(2)) / (2.0 * NOISE_DEG * NOISE_DEG);
+            let evidence =
+                (off[1].powi(2) - off[0].powi(2)) / (2.0 * ORIENTATION_DEG * ORIENTATION_DEG);
             let evidence = evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE);
             self.odds = (self.odds + evidence).clamp(-CERTAIN, CERTAIN);
         }

@@ -5,13 +5,13 @@
 
 use nalgebra::Vector2;
 
+use crate::silence::USUAL_STEP_S;
+
 /// Natural frequency of the motion back.
 const FREQUENCY_1_S: f64 = 1.2;
 const FASTEST_M_S: f64 = 0.25;
 const MOST_M_S2: f64 = 0.4;
 const FASTEST_DEG_S: f64 = 8.0;
-/// A longer time step is a pause.
-const LONGEST_STEP_S: f64 = 0.1;
 
 /// The remaining offset.
 #[derive(Debug, Clone, Copy, Default)]
@@ -29,7 +29,7 @@ impl TakeBack {
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
-        let step_s = step_s.clamp(0.0, LONGEST_STEP_S);
+        let step_s = step_s.clamp(0.0, USUAL_STEP_S);
         let wanted_m_s = (-self.place_m * (FREQUENCY_1_S / 2.0)).cap_magnitude(FASTEST_M_S);
         let change = (wanted_m_s - self.rate_m_s) * (2.0 * FREQUENCY_1_S);
         self.rate_m_s += change.cap_magnitude(MOST_M_S2) * step_s;

@@ -113,8 +113,8 @@ const EVIDENCE: &[Evidence] = &[
     without(
         "lateness",
         ESTIMATOR,
-        "let is_news = lateness_s <= MAX_LATENESS_S;",
-        "let is_news = lateness_s <= MAX_LATENESS_S.max(f64::MAX);",
+        "let is_news = lateness_s <= GAP_S;",
+        "let is_news = lateness_s <= GAP_S.max(f64::MAX);",
     ),
     without(
         "what the drone reports of its sensors",

@@ -3,10 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{Filter, Row, STATES, TAGS, squared_deviations};
-use crate::sensor::{FLOW_SCALE, GATE};
-
-/// All tags look alike: the squared deviations of a rival must be larger by the square of this.
-const CLEAR: f64 = 3.0;
+use crate::sensor::{CLEAR, FLOW_SCALE, GATE};
 
 impl Filter {
     /// Whether two tags may be one, `way_m` from the last sighting.

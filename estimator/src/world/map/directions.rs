@@ -1,13 +1,13 @@
 //! Directions of the known tags, and whether a tag was turned.
 
 use super::Map;
+use crate::sensor::CLEAR;
 
 /// Number of sightings in the mean of the residuals of a direction, the limit of each, because one may be of
 /// something else, and the largest mean of a tag that does not turn, besides that of an uncertain heading.
 const MEAN_DIRECTIONS: f64 = 20.0;
 const MOST_OFF_DEG: f64 = 40.0;
 const TURNED_DEG: f64 = 10.0;
-const TURNED_DEVIATIONS: f64 = 3.0;
 
 /// Whether the direction of a tag is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,7 +56,7 @@ impl Map {
         let slot = &mut self.slots[tag];
         let off_deg = off_deg.clamp(-MOST_OFF_DEG, MOST_OFF_DEG);
         slot.turned_deg += (off_deg - slot.turned_deg) / MEAN_DIRECTIONS;
-        slot.turned_deg.abs() > TURNED_DEG.max(TURNED_DEVIATIONS * deviation_deg)
+        slot.turned_deg.abs() > TURNED_DEG.max(CLEAR * deviation_deg)
     }
 
     /// Whether a tag was turned, so that its direction is not used.
