@@ -14,7 +14,6 @@ use nalgebra::{SVector, Vector2};
 use self::tilt::TiltLearner;
 use crate::bank::{Assumption, Bank};
 use crate::orders::{Order, Orders};
-use crate::sensor::WIND_M_S2;
 use kinematics::GRAVITY_M_S2;
 use kinematics::Sticks;
 use kinematics::{Airframe, DroneLimits};
@@ -27,8 +26,10 @@ const TURN_LAGS_S: [f64; 5] = [0.03, 0.1, 0.2, 0.35, 0.55];
 const WINDOW_S: f64 = 0.5;
 /// Covers the window at 200 packets per second.
 const MEMORY: usize = 128;
-/// The gain of a thrust learner that is the wind. Once the drone has turned it blows from another side of the body.
+/// The gain of a thrust learner that is the wind, and its standard deviation before anything is known of it. Once the drone
+/// has turned it blows from another side of the body.
 const WIND: usize = 2;
+const WIND_M_S2: f64 = 0.3;
 /// A window in which the drone turns further is discarded, because it mixes the axes.
 const MAX_TURN_DEG: f64 = 10.0;
 

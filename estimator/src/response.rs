@@ -10,6 +10,7 @@ use nalgebra::Vector2;
 use self::axis::Axis;
 use self::rate::{Rate, Tolerance};
 use crate::orders::{Order, Orders};
+use crate::silence::GAP_S;
 use crate::trust::Quantity;
 use kinematics::Sticks;
 use kinematics::wrap_deg;
@@ -18,8 +19,6 @@ use kinematics::{Airframe, DroneLimits};
 mod axis;
 mod rate;
 
-/// Gaps longer than this are not judged, because it is unknown whether the drone received its commands.
-const MAX_GAP_S: f64 = 0.3;
 /// An airframe that nobody published may differ from the published ones by this share of what they have.
 const UNPUBLISHED: f64 = 0.4;
 /// From the least of the published values to the largest, and beyond.
@@ -89,7 +88,7 @@ impl Response {
     ) -> Option<Quantity> {
         let from_s = self.at_s.replace(measured.at_s).unwrap_or(measured.at_s);
         let step_s = measured.at_s - from_s;
-        if orders.at(measured.at_s) == Order::ByItself || step_s > MAX_GAP_S {
+        if orders.at(measured.at_s) == Order::ByItself || step_s > GAP_S {
             self.rest(measured);
             return None;
         }

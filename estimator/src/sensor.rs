@@ -27,8 +27,6 @@ pub(crate) const ORIENTATION_DEG: f64 = 8.0;
 pub(crate) const FLOW_SCALE: f64 = 0.06;
 /// Standard deviation of a change that the model of the airframe makes of an order, as a fraction of the change.
 pub(crate) const MODEL: f64 = 0.2;
-/// Standard deviation of the disturbance on an axis of the body, before anything is known of it.
-pub(crate) const WIND_M_S2: f64 = 0.3;
 
 /// The quantity of a sample whose value is impossible for an AR.Drone.
 pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {

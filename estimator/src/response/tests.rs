@@ -263,8 +263,8 @@ fn longer_gaps_are_not_judged() {
             response.watch(&measured, &orders, &DroneLimits::default())
         })
     };
-    assert_eq!(found(MAX_GAP_S - 0.01), Some(Quantity::Altitude));
-    assert_eq!(found(MAX_GAP_S + 0.01), None);
+    assert_eq!(found(GAP_S - 0.01), Some(Quantity::Altitude));
+    assert_eq!(found(GAP_S + 0.01), None);
 }
 
 #[test]
