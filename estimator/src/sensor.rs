@@ -21,7 +21,7 @@ pub(crate) const FLOW_M_S: f64 = 0.05;
 pub(crate) const ULTRASOUND_M: f64 = 0.02;
 pub(crate) const COMPASS_DEG: f64 = 0.3;
 pub(crate) const ATTITUDE_DEG: f64 = 0.4;
-/// Orientation of a tag, larger than it is because consecutive errors are correlated.
+/// Standard deviation of the orientation of a tag, chosen large because consecutive errors are correlated.
 pub(crate) const ORIENTATION_DEG: f64 = 8.0;
 /// Standard deviation of the flow's scale, as a fraction of the way.
 pub(crate) const FLOW_SCALE: f64 = 0.06;

@@ -4,7 +4,8 @@
 /// Longest interval between packets that counts as gapless.
 pub(crate) const USUAL_STEP_S: f64 = 0.1;
 
-/// After a longer one it is not known what moved the drone meanwhile, and news as late are none.
+/// After a longer interval it is not known what moved the drone meanwhile, and packets that come later than usual by more are
+/// out of date.
 pub(crate) const GAP_S: f64 = 0.3;
 
 /// A drone that receives nothing keeps its last sticks for this long; then it hovers by itself.

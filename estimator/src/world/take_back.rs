@@ -29,6 +29,7 @@ impl TakeBack {
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
+        // A longer time step is a pause.
         let step_s = step_s.clamp(0.0, USUAL_STEP_S);
         let wanted_m_s = (-self.place_m * (FREQUENCY_1_S / 2.0)).cap_magnitude(FASTEST_M_S);
         let change = (wanted_m_s - self.rate_m_s) * (2.0 * FREQUENCY_1_S);

@@ -20,6 +20,7 @@ impl Filter {
         way_m: f64,
     ) -> bool {
         let off = |other: usize| self.squared_deviations(tag, other, way_m);
+        // All tags look alike.
         off(rival) >= off(this) + CLEAR * CLEAR
     }
 
