@@ -302,7 +302,8 @@ impl Estimator {
             move |quantity: Quantity| Evidence { quantity, cause, since_s: arrival_s }
         };
         if let Some(quantity) = sensor::impossible(sample) {
-            self.beliefs.weigh(arrival_s, &[Some(against(Cause::Value)(quantity))], is_news);
+            // Such a packet is not used, and is no news.
+            self.beliefs.weigh(arrival_s, &[Some(against(Cause::Value)(quantity))], false);
             return;
         }
         let was_airborne = std::mem::replace(&mut self.airborne, sample.airborne);
