@@ -235,8 +235,9 @@ impl Vehicle {
     fn watch_landing(&mut self, now: Duration, since: Duration) {
         let elapsed = now.saturating_sub(since);
         let blind = !self.session.is_alive();
-        // A take-off ordered just before the landing may not have taken effect yet.
-        let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;
+        // A take-off ordered just before the landing may not have taken effect in what was heard last.
+        let heard_later = self.packet_at.is_some_and(|at| at >= since + ON_ITS_WAY);
+        let landed = !blind && self.on_ground() && heard_later;
         // A restarted drone sends its state before it sends flight data.
         let known = self.demo().is_some();
         if landed && known {

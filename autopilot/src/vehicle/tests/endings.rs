@@ -331,6 +331,25 @@ fn a_drone_in_emergency_is_down_only_once_its_flight_data_say_so() {
     assert_eq!(bench.phase(), Phase::Landing);
 }
 
+/// What was heard before the order to land says nothing of a take-off that is on its way.
+#[test]
+fn a_landing_is_over_only_by_what_was_heard_after_it_began() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.accepted(START);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+    bench.is_heard = false;
+    bench.accepted(OperatorOrder::Land);
+    bench.run(3 * SECOND / 2);
+    assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Landing, 0));
+    bench.rises();
+    bench.is_heard = true;
+    bench.run(SECOND);
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+    bench.comes_down();
+    bench.until(SECOND, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.outcomes, [Outcome::Interrupted]);
+}
+
 /// A take-off that was ordered may have lifted it meanwhile.
 #[test]
 fn a_drone_that_is_lost_on_the_ground_before_it_rose_is_landed_in_silence() {
