@@ -125,6 +125,8 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "phase": phase.name(),
         "landing": status.landing.map(|reason| reason.to_string()),
         "emergency": status.emergency,
+        "flight_time_s": status.flight_time.map(|time| time.as_secs_f64()),
+        "camera": status.camera,
         "step": step,
         "steps": steps,
         "mission_waits": status.mission_waits,

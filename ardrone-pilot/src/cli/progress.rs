@@ -197,6 +197,8 @@ mod tests {
             landing: None,
             emergency: false,
             airborne: true,
+            flight_time: None,
+            camera: None,
             altitude_m: None,
             manual: None,
             controls: None,

@@ -136,6 +136,7 @@ impl Vehicle {
                 self.flight.estimator.handle_restart();
                 self.navdata = None;
                 self.gps = None;
+                self.camera = None;
                 match self.life.phase() {
                     Phase::Flying => self.land(now, LandingReason::DroneRestarted),
                     Phase::Trimming | Phase::Standby => self.begin_to_configure(now),

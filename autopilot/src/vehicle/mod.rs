@@ -40,7 +40,7 @@ use std::time::Duration;
 use ardrone_link::at::{Config, Identity};
 use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
-use ardrone_link::settings::{BitRateControl, Detection, Setting, SettingError};
+use ardrone_link::settings::{BitRateControl, Camera, Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
 pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use kinematics::Pose;
@@ -200,6 +200,8 @@ pub struct Vehicle {
     events: VecDeque<FlightEvent>,
     /// Decision of the last tick; `None` before the first navdata.
     decision: Option<Decision>,
+    /// The camera that was ordered last.
+    camera: Option<Camera>,
     pending: Pending,
 }
 
@@ -263,6 +265,7 @@ impl Vehicle {
             readiness_in: 0,
             events: VecDeque::with_capacity(EVENTS),
             decision: None,
+            camera: None,
             pending: Pending::default(),
         })
     }
@@ -361,6 +364,8 @@ impl Vehicle {
             landing: self.life.landing_reason(),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: self.navdata.is_some() && !self.on_ground(),
+            flight_time: self.flight.report().flight_time_at(now),
+            camera: self.camera,
             step: self.life.due().map(|active| active.due.step),
             steps: self.flight.report().steps,
             mission_waits: self.life.manual().pauses_mission(),

@@ -240,6 +240,7 @@ impl Vehicle {
         }
         if let Ok(config) = Setting::VideoChannel(camera).config() {
             self.request(now, Request::Setting(config));
+            self.camera = Some(camera);
         }
         Ok(())
     }

@@ -47,9 +47,14 @@ pub struct FlightReport {
 }
 
 impl FlightReport {
-    /// From the take-off order to the ground.
+    /// From the take-off order to the ground; `None` before that.
     pub fn flight_time(&self) -> Option<Duration> {
-        self.landed_at?.checked_sub(self.took_off_at?)
+        self.flight_time_at(self.landed_at?)
+    }
+
+    /// From the take-off order until now, or to the ground; `None` before the take-off has ended.
+    pub fn flight_time_at(&self, now: Duration) -> Option<Duration> {
+        self.landed_at.unwrap_or(now).checked_sub(self.took_off_at?)
     }
 
     /// Distance from the last target at the end of its stay.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::navdata::GpsFix;
+use ardrone_link::settings::Camera;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
 
@@ -20,6 +21,10 @@ pub struct Status {
     pub emergency: bool,
     /// Whether the drone is off the ground.
     pub airborne: bool,
+    /// Time since the take-off, or of the last flight; `None` before the first take-off has ended.
+    pub flight_time: Option<Duration>,
+    /// The camera whose video was ordered last from this drone; `None` if nobody has ordered one: it may show either.
+    pub camera: Option<Camera>,
     /// Index of the step being flown.
     pub step: Option<usize>,
     /// Number of plan steps.

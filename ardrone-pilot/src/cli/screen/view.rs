@@ -131,7 +131,7 @@ impl View {
 
     fn look(&mut self, at: Duration, status: &Status) {
         if let Some(pose) = status.pose {
-            self.flown_path.add(pose.x_m, pose.y_m);
+            self.flown_path.add(&pose);
         }
         let decision = decision(status);
         if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
@@ -255,7 +255,11 @@ fn headline(view: &View) -> Paragraph<'_> {
 fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let pose = view.status.and_then(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
-    let places = view.flown_path.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
+    let places = view
+        .flown_path
+        .places_m()
+        .map(|[x_m, y_m, _]| (x_m, y_m))
+        .chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     for place in places.chain(tags::places_m(view.status.as_ref())) {
         x = (x.0.min(place.0), x.1.max(place.0));
@@ -266,7 +270,8 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let wide = columns / (2.0 * rows);
     let half_m = ((y.1 - y.0) / 2.0).max((x.1 - x.0) / 2.0 / wide).max(0.7) * 1.2;
     let middle = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
-    let trail: Vec<(f64, f64)> = view.flown_path.places_m().collect();
+    let trail: Vec<(f64, f64)> =
+        view.flown_path.places_m().map(|[x_m, y_m, _]| (x_m, y_m)).collect();
     let title = format!("from above, {:.1} m high", 2.0 * half_m);
     let canvas = Canvas::default()
         .block(Block::bordered().title(title))
@@ -405,6 +410,8 @@ mod tests {
             landing: None,
             emergency: false,
             airborne: true,
+            flight_time: None,
+            camera: None,
             altitude_m: None,
             manual: None,
             controls: None,
