@@ -132,7 +132,8 @@ fn the_page_shows_the_flight_and_orders_it() {
     let flown = Flown::start("takeoff\nsetSpeed 0.1\ngoto 0 1 0 0\nland\n");
     let tab = chromium.open(&flown.url());
     chromium.wait(&tab, "document.querySelector('#steps .now')?.innerText.startsWith('3')");
-    chromium.wait(&tab, "document.querySelector('#because pre')?.innerText.includes('+!approach')");
+    chromium
+        .wait(&tab, "document.querySelector('#because pre')?.textContent.includes('+!approach')");
     chromium.wait(&tab, "!document.querySelector('#hold').disabled");
     chromium.click(&tab, "#hold", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#events').innerText.includes('holding')");

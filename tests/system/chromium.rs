@@ -19,6 +19,8 @@ pub(crate) struct Chromium {
     child: Child,
     socket: WebSocket<TcpStream>,
     calls: u64,
+    /// The key that is held.
+    held: Option<String>,
     _profile: tempfile::TempDir,
 }
 
@@ -59,7 +61,7 @@ impl Chromium {
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
-        Some(Self { child, socket, calls: 0, _profile: profile })
+        Some(Self { child, socket, calls: 0, held: None, _profile: profile })
     }
 
     fn call(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {
@@ -238,6 +240,37 @@ impl Chromium {
         // The name of a key other than a letter is its place.
         let key = json!({ "type": kind, "code": code, "key": code });
         self.call(Some(tab), "Input.dispatchKeyEvent", &key);
+    }
+
+    /// Presses and releases a key by its character; `modifiers`: 2 is Ctrl, 8 is Shift.
+    pub(crate) fn strike(&mut self, tab: &Tab, key: &str, code: &str, modifiers: u32) {
+        // Chromium acts by itself on the number of a key.
+        let number = if key == "Escape" { 27 } else { 0 };
+        for kind in ["rawKeyDown", "keyUp"] {
+            let event = json!({
+                "type": kind, "key": key, "code": code, "modifiers": modifiers,
+                "windowsVirtualKeyCode": number,
+            });
+            self.call(Some(tab), "Input.dispatchKeyEvent", &event);
+        }
+    }
+
+    /// Presses a key, or repeats one that is pressed already.
+    pub(crate) fn hold_key(&mut self, tab: &Tab, key: &str, code: &str) {
+        let repeats = self.held.as_deref() == Some(code);
+        self.held = Some(code.to_owned());
+        let event =
+            json!({ "type": "rawKeyDown", "key": key, "code": code, "autoRepeat": repeats });
+        self.call(Some(tab), "Input.dispatchKeyEvent", &event);
+    }
+
+    /// Turns a mouse's wheel at an offset from the middle of an element; positive moves away.
+    pub(crate) fn wheel(&mut self, tab: &Tab, selector: &str, off: [f64; 2], by: f64) {
+        let [x, y] = self.middle(tab, selector);
+        let event = json!({
+            "type": "mouseWheel", "x": x + off[0], "y": y + off[1], "deltaX": 0, "deltaY": by,
+        });
+        self.call(Some(tab), "Input.dispatchMouseEvent", &event);
     }
 
     /// Saves a screenshot.

@@ -115,7 +115,12 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.type_into(&tab, "#plantext", "landOnTag\n");
     chromium.click(&tab, "#map", [0.0, -90.0]);
     chromium.wait(&tab, "/^takeoff\\ngoto .*\\nlandOnTag\\n$/.test(plan.text())");
+    // What is not saved is not given up unasked.
     chromium.choose(&tab, "#plans", "-");
+    chromium.click(&tab, "#ask button[value=no]", [0.0; 2]);
+    chromium.wait(&tab, "plan.text().endsWith('landOnTag\\n')");
+    chromium.choose(&tab, "#plans", "-");
+    chromium.click(&tab, "#askyes", [0.0; 2]);
     chromium.wait(&tab, "plan.text() === 'takeoff\\nland\\n'");
     // Two clicks on the map are two targets before the landing, and one of them is dragged.
     for (count, off) in [(1, [0.0, -90.0]), (2, [90.0, -90.0])] {
@@ -379,6 +384,7 @@ fn a_drone_that_is_not_found_is_looked_for() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start("0", &["--drone", "127.0.0.1"]);
     let tab = chromium.open(&station.url);
+    chromium.click(&tab, "[data-show=fly]", [0.0; 2]);
     chromium.wait(&tab, "!document.querySelector('#advice').hidden");
     let advice = chromium.evaluate(&tab, "document.querySelector('#advice').innerText");
     let advice = advice.as_str().unwrap();
@@ -386,6 +392,7 @@ fn a_drone_that_is_not_found_is_looked_for() {
         assert!(advice.contains(word), "{word}: {advice}");
     }
     // A plan can be made and simulated meanwhile.
+    chromium.click(&tab, "[data-show=plan]", [0.0; 2]);
     planner(&mut chromium, &tab);
     chromium.click(&tab, "#simulate", [0.0; 2]);
     chromium.wait(&tab, "!!plan.simulated()?.completed");

@@ -18,6 +18,7 @@ mod faults;
 mod ground_station;
 mod lateness;
 mod mavlink;
+mod operator;
 mod parting;
 mod plans;
 mod polygon;

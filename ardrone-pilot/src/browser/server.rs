@@ -84,7 +84,7 @@ macro_rules! script {
 }
 
 /// The page itself comes first.
-const ASSETS: [Asset; 9] = [
+const ASSETS: [Asset; 12] = [
     Asset { path: "/", kind: "text/html; charset=utf-8", text: include_str!("page/index.html") },
     Asset {
         path: "/page.css",
@@ -92,6 +92,9 @@ const ASSETS: [Asset; 9] = [
         text: include_str!("page/page.css"),
     },
     script!("page.js"),
+    script!("history.js"),
+    script!("heights.js"),
+    script!("dangers.js"),
     script!("map.js"),
     script!("video.js"),
     script!("sticks.js"),

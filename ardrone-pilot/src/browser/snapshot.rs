@@ -1,10 +1,13 @@
 //! Snapshot for a browser that connects, so that reloading the page loses nothing.
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
-use autopilot::agent::{PLANS, SOURCE, plan_text};
+use autopilot::agent::{LANDING_BATTERY_PERCENT, PLANS, SOURCE, plan_text};
 use autopilot::outcome::Outcome;
-use autopilot::plan::{Declaration, FlightLimits, LANGUAGE, Plan, Step, expectations};
+use autopilot::plan::{
+    Declaration, FlightLimits, LANGUAGE, Plan, Step, battery_percent, expectations,
+};
 use autopilot::vehicle::{Telemetry, VehicleConfig, VehicleName};
 use diagnostic::printable;
 use serde_json::{Value, json};
@@ -68,7 +71,7 @@ impl Snapshot {
         match telemetry {
             Telemetry::Status(status) => {
                 if let Some(pose) = status.pose {
-                    self.flown_path.add(pose.x_m, pose.y_m);
+                    self.flown_path.add(&pose);
                 }
                 self.status = object.clone();
             }
@@ -141,6 +144,8 @@ impl Snapshot {
             },
             "floor_m": self.limits.floor_m,
             "ceiling_m": self.limits.ceiling_m,
+            "battery_percent_s": battery_percent(Duration::from_secs(1)),
+            "battery_lands_percent": LANDING_BATTERY_PERCENT,
             "plans": plans,
             "words": typed::remote_words().collect::<Vec<_>>(),
             "commands": LANGUAGE.iter().map(command).collect::<Vec<_>>(),
@@ -171,8 +176,6 @@ fn command(declared: &Declaration) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
     use crate::timing::TickHealth;
     use autopilot::vehicle::FlightEvent;

@@ -46,6 +46,7 @@ const flights = (() => {
       }
       body.append(...rows(summaries.get(file.name)));
     }
+    filter();
     note(files.length ? "" : "There is no recorded flight yet.");
     // The end of the last flight may not be recorded yet.
     const isOpen = ({ current, flights }) => current && flights.some(({ outcome }) => outcome === null);
@@ -83,21 +84,23 @@ const flights = (() => {
   function rows(recording) {
     const when = new Date((recording.start_s ?? 0) * 1000);
     const file = encodeURIComponent(recording.name);
-    const last = recording.flights.length - 1;
     const made = recording.flights.map((flight, index) => {
       const row = document.createElement("tr");
-      const time = new Date(when.getTime() + flight.from_s * 1000).toLocaleString();
+      const date = new Date(when.getTime() + flight.from_s * 1000);
+      const time = date.toLocaleString();
       const ended = flight.outcome ?? (recording.current ? "goes on" : "cut off");
       const charge = flight.battery_percent ? `${flight.battery_percent[0]} to ${flight.battery_percent[1]} %` : "–";
       const name = flight.plan.split(/[\\/]/).at(-1) || "by orders";
       row.append(
         choice(`${recording.name}/${index}`, `the flight of ${time}`), cell(time), cell(name),
         cell(ended, flight.warning && flight.outcome ? "ill" : ""), cell(seconds(flight.length_s)), cell(charge), cell(`${flight.farthest_m.toFixed(2)} m`),
-        index === last ? actions(recording, file, time) : cell(""),
+        actions(recording, file, time, index),
       );
+      Object.assign(row.dataset, { plan: name.toLowerCase(), ill: String(flight.warning && flight.outcome !== null), at: String(date.getTime()) });
       return row;
     });
-    if (made.length) return made;
+    // The newest first.
+    if (made.length) return made.reverse();
     const row = document.createElement("tr");
     const time = recording.problem ? recording.name : when.toLocaleString();
     const said = cell(recording.problem ?? "no flight", recording.problem ? "ill" : "faint");
@@ -106,7 +109,20 @@ const flights = (() => {
     return [row];
   }
 
-  function actions(recording, file, time) {
+  // Shows what is asked for by plan, end and date.
+  function filter() {
+    const wanted = $("ofplan").value.trim().toLowerCase();
+    const since = $("ofdate").valueAsNumber;
+    for (const row of body.children) {
+      const { plan: name = "", ill = "false", at = "Infinity" } = row.dataset;
+      const fits = { "": true, well: ill === "false", ill: ill === "true" }[$("ofend").value];
+      row.hidden = !(name.includes(wanted) && fits && !(Number(at) < since));
+    }
+  }
+  for (const id of ["ofplan", "ofend", "ofdate"]) $(id).oninput = filter;
+
+  // `index` is the flight of the recording, if it has any.
+  function actions(recording, file, time, index) {
     const place = document.createElement("td");
     place.className = "actions";
     const button = (text, action, off) => {
@@ -116,6 +132,8 @@ const flights = (() => {
       place.append(element);
     };
     if (!recording.problem) button("Report", () => report(file));
+    if (index !== undefined) button("Play", () => play(recording.name, index, time));
+    if (index > 0) return place;
     button("Download", () => {
       const link = document.createElement("a");
       link.href = `flights/${file}${query}`;
@@ -143,6 +161,63 @@ const flights = (() => {
     $("report").src = `flights/${file}/report${query}`;
     $("report").scrollIntoView({ block: "nearest" });
   }
+
+  // ---- A flight played back in the Fly view.
+
+  // { track, name, at (seconds since the take-off), pace, since } of what is played.
+  let played = null;
+
+  async function play(name, index, time) {
+    let track;
+    try {
+      track = (await get(`flights/${encodeURIComponent(name)}/track/${index}`)).track;
+    } catch (error) {
+      note(`It cannot be played: ${error.message}`);
+      return;
+    }
+    if (!track || track.length < 2) {
+      note("It never left the ground.");
+      return;
+    }
+    played = { track, name: `the flight of ${time}`, at: 0, runs: true };
+    $("playat").max = track.at(-1)[0];
+    $("playback").hidden = false;
+    show("fly");
+  }
+
+  // The pose at the moment that is played, and the way to it; null if nothing is.
+  function playing() {
+    if (!played) return null;
+    const { track, at } = played;
+    const [, x_m, y_m, z_m, yaw_deg] = sample(track, at);
+    const way = track.filter(([time]) => time <= at).map(([, x, y, z]) => [x, y, z]);
+    return { pose: { x_m, y_m, z_m, yaw_deg: yaw_deg ?? 0 }, way };
+  }
+
+  // `flies`: a drone does, and is what must be looked at.
+  function advance(seconds, flies) {
+    if (!played) return;
+    if (flies) {
+      $("endplay").onclick();
+      return;
+    }
+    const end = played.track.at(-1)[0];
+    if (played.runs) played.at = Math.min(end, played.at + seconds * Number($("pace").value));
+    if (played.at >= end) played.runs = false;
+    $("play").textContent = played.runs ? "Pause" : "Play";
+    if (document.activeElement !== $("playat") || played.runs) $("playat").value = played.at;
+    $("playtime").textContent = `Played back, ${played.name}: ${played.at.toFixed(1)} of ${end.toFixed(1)} s`;
+  }
+
+  $("play").onclick = () => {
+    if (played.at >= played.track.at(-1)[0]) played.at = 0;
+    played.runs = !played.runs;
+  };
+  $("playat").oninput = () => Object.assign(played, { at: Number($("playat").value), runs: false });
+  $("endplay").onclick = () => {
+    played = null;
+    $("playback").hidden = true;
+  };
 
   // ---- Two flights side by side.
 
@@ -265,5 +340,5 @@ const flights = (() => {
   const above = (tracks) => drawing("from above: right, forward (m)", tracks.map((track) => track.map((row) => [row[1], row[2]])), true);
   const plot = (title, lines) => drawing(`${title} over the time since the take-off (s)`, lines, false);
 
-  return { list };
+  return { list, playing, advance };
 })();

@@ -13,8 +13,14 @@ const map = (() => {
   // A tag that was not seen for this long is drawn faintly, in seconds.
   const STALE = 2;
 
-  let zoom = 1;
+  const [NEAREST, FARTHEST] = [0.3, 100]; // half of the smaller side of the map, in metres
+  const TREMBLES = 4; // a hand that clicks moves this far, in pixels
+
   let view = null; // the part of the world on the map: { x, y, half }
+  let mode = "all"; // what the view shows: "all", "drone", or what was "chosen" by hand
+  const fingers = new Map(); // pointers on the map: [x, y] in pixels
+  let moved = false; // the last press has moved the map
+  let trailDrawn = null; // what is drawn of the flown way
   let tags = new Map(); // marks of the known tags by their number
   let marks = []; // of targets: { x, y, steps, mark }
   let shown = []; // the targets that the marks are for
@@ -48,6 +54,8 @@ const map = (() => {
     } else {
       for (const { target } of flight.steps) if (target) places.push([target.x_m, target.y_m]);
       if (status && status.pose) places.push([status.pose.x_m, status.pose.y_m]);
+      const played = flights.playing();
+      if (played) places.push([played.pose.x_m, played.pose.y_m]);
       if (status && status.target) places.push([status.target.x_m, status.target.y_m]);
     }
     for (const tag of known()) places.push([tag.x_m, tag.y_m]);
@@ -64,14 +72,18 @@ const map = (() => {
     const reach = (values) => (Math.max(...values) - Math.min(...values)) / 2;
     const least = Math.min(width, height);
     const half = Math.max((reach(xs) * least) / width, (reach(ys) * least) / height, 0.8) * 1.25 + 0.3;
-    // The view follows smoothly and does not zoom in by itself. It stays while a target is dragged.
+    // The view follows smoothly and does not zoom in by itself. It stays where a hand has put it.
     view ??= { x: middle(xs), y: middle(ys), half };
-    if (!plan.isDragging()) {
+    if (mode === "all" && !plan.isDragging()) {
       view.half = Math.max(view.half, half);
       view.x += (middle(xs) - view.x) * 0.1;
       view.y += (middle(ys) - view.y) * 0.1;
     }
-    const visible = view.half / zoom;
+    if (mode === "drone" && status && status.pose) {
+      view.x += (status.pose.x_m - view.x) * 0.1;
+      view.y += (status.pose.y_m - view.y) * 0.1;
+    }
+    const visible = view.half;
     const [wide, high] = [(visible * width) / least, (visible * height) / least];
     element.setAttribute("viewBox", `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}`);
     drawGrid(wide, high, visible);
@@ -79,6 +91,9 @@ const map = (() => {
     const SMALLEST = 14;
     const size = Math.max(visible * 0.05, (SMALLEST * 2 * visible) / least);
     $("fence").setAttribute("points", points(flight.fence.outline_m));
+    drawFenceArrow(wide, high, width, height);
+    $("all").ariaPressed = String(mode === "all");
+    $("follow").ariaPressed = String(mode === "drone");
     const planning = document.body.dataset.view === "plan";
     plan.drawOn(size);
     if (planning) {
@@ -107,6 +122,9 @@ const map = (() => {
     const at = (place) => place && { x: place.x_m, y: place.y_m };
     put("drone", at(pose), pose ? `rotate(${pose.yaw_deg})` : "");
     put("aim", at(target));
+    const played = document.body.dataset.view === "fly" ? flights.playing() : null;
+    put("ghost", played && at(played.pose), played ? `rotate(${played.pose.yaw_deg})` : "");
+    $("ghostway").setAttribute("points", played ? points(played.way) : "");
     put("wanted", wanted);
     $("doubt").style.display = pose ? "" : "none";
     if (pose) {
@@ -114,7 +132,29 @@ const map = (() => {
       $("doubt").setAttribute("cy", -pose.y_m);
       $("doubt").setAttribute("r", 2 * status.horizontal_deviation_m);
     }
-    $("trail").setAttribute("points", points(trail));
+    const end = trail.at(-1);
+    if (end !== trailDrawn) $("trail").setAttribute("points", points(trail));
+    trailDrawn = end;
+  }
+
+  // Where the fence is, if nothing of it is on the map.
+  function drawFenceArrow(wide, high, width, height) {
+    const outline = flight.fence.outline_m;
+    const inside = ([x, y]) => Math.abs(x - view.x) < wide && Math.abs(y - view.y) < high;
+    const nearest = ([x, y], [u, v]) => {
+      const along = Math.max(0, Math.min(1, ((view.x - x) * (u - x) + (view.y - y) * (v - y)) / Math.max(1e-9, (u - x) ** 2 + (v - y) ** 2)));
+      return [x + along * (u - x), y + along * (v - y)];
+    };
+    const sides = outline.map((corner, index) => nearest(corner, outline[(index + 1) % outline.length]));
+    const away = ([x, y]) => Math.hypot(x - view.x, y - view.y);
+    const place = sides.reduce((best, side) => (away(side) < away(best) ? side : best));
+    $("fencearrow").hidden = sides.some(inside) || outline.some(inside);
+    if ($("fencearrow").hidden) return;
+    const turn = Math.atan2(place[0] - view.x, place[1] - view.y);
+    $("fencearrow").firstElementChild.style.transform = `rotate(${turn}rad)`;
+    $("fencearrow").lastElementChild.textContent = `fence, ${away(place).toFixed(1)} m`;
+    const [x, y] = [Math.sin(turn) * (width / 2 - 60), -Math.cos(turn) * (height / 2 - 40)];
+    $("fencearrow").style.transform = `translate(${width / 2 + x - 45}px, ${height / 2 + y - 12}px)`;
   }
 
   const known = () => (status && status.tags ? status.tags.map : []);
@@ -167,7 +207,12 @@ const map = (() => {
     $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
     const tagged = status && status.tags ? "; roundels: tags with one standard deviation, * surveyed" : "";
     const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
-    $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.fence.text}${tagged}${simulated}`;
+    const { width } = $("map").getBoundingClientRect();
+    const pixels = (step * width) / (2 * wide);
+    const bar = pixels < 45 ? 2 : 1;
+    $("scalebar").style.width = `${bar * pixels}px`;
+    $("scalebar").textContent = `${bar * step} m`;
+    $("scale").textContent = `disc: position uncertainty; dashed: the fence, ${flight.fence.text}${tagged}${simulated}`;
   }
 
   // Where a mouse or a finger points to, in metres right and forward.
@@ -176,8 +221,78 @@ const map = (() => {
     return { x, y: -y };
   }
 
-  $("nearer").onclick = () => (zoom = Math.min(8, zoom * 1.5));
-  $("farther").onclick = () => (zoom = Math.max(0.1, zoom / 1.5));
+  // Zooms by a factor about a place that stays where it is.
+  function zoom(factor, about) {
+    if (!view) return;
+    const half = Math.max(NEAREST, Math.min(FARTHEST, view.half * factor));
+    const ratio = half / view.half;
+    view = { x: about.x + (view.x - about.x) * ratio, y: about.y + (view.y - about.y) * ratio, half };
+    // A drone that is followed stays in the middle.
+    if (mode === "all") mode = "chosen";
+  }
 
-  return { draw, place, tagsText, reset: () => (view = null) };
+  function shift(from, to) {
+    view = { ...view, x: view.x + from.x - to.x, y: view.y + from.y - to.y };
+    mode = "chosen";
+  }
+
+  const spot = ([clientX, clientY]) => place({ clientX, clientY });
+  // Middle and span of two fingers.
+  function pinched() {
+    const [[x, y], [u, v]] = [...fingers.values()];
+    return { middle: [(x + u) / 2, (y + v) / 2], span: Math.max(10, Math.hypot(x - u, y - v)) };
+  }
+
+  $("map").addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(Math.exp(event.deltaY * 0.0015), place(event));
+  }, { passive: false });
+  $("map").addEventListener("pointerdown", (event) => {
+    if (!fingers.size) moved = false;
+    // A target is dragged by itself.
+    if (event.target.closest("#drafts .free")) return;
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+  });
+  $("map").addEventListener("pointermove", (event) => {
+    const before = fingers.get(event.pointerId);
+    if (!before || !view) return;
+    const now = [event.clientX, event.clientY];
+    if (!moved && Math.hypot(now[0] - before[0], now[1] - before[1]) < TREMBLES) return;
+    if (!moved) $("map").setPointerCapture(event.pointerId);
+    moved = true;
+    if (fingers.size === 2) {
+      const was = pinched();
+      fingers.set(event.pointerId, now);
+      const is = pinched();
+      shift(spot(was.middle), spot(is.middle));
+      zoom(was.span / is.span, spot(is.middle));
+    } else {
+      fingers.set(event.pointerId, now);
+      shift(spot(before), spot(now));
+    }
+  });
+  for (const end of ["pointerup", "pointercancel"]) $("map").addEventListener(end, (event) => fingers.delete(event.pointerId));
+
+  const middle = () => ({ x: view.x, y: view.y });
+  $("nearer").onclick = () => view && zoom(1 / 1.5, middle());
+  $("farther").onclick = () => view && zoom(1.5, middle());
+  $("all").onclick = () => {
+    mode = "all";
+    view = null;
+  };
+  $("follow").onclick = () => (mode = mode === "drone" ? "chosen" : "drone");
+  $("clear").onclick = () => (trail = []);
+
+  return {
+    draw,
+    place,
+    tagsText,
+    // What is pointed to stays under the pointer.
+    keep: () => (mode = mode === "all" ? "chosen" : mode),
+    wasMoved: () => moved,
+    reset: () => {
+      view = null;
+      mode = "all";
+    },
+  };
 })();

@@ -7,9 +7,7 @@ const signed = (value, digits = 2) => {
 };
 const at = (seconds) => `${seconds.toFixed(1)} s`;
 
-// Without a message for this long the page shows an alarm, in milliseconds.
-const SILENCE = 1000;
-// Time to confirm a cut or a click on the map, in milliseconds.
+// Time to confirm a cut, the end of an emergency, or a click on the map, in milliseconds.
 const CUT_AGAIN = 2500;
 const GO_AGAIN = 8000;
 
@@ -20,8 +18,9 @@ let socket = null;
 let heard = 0; // time of the last message
 let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
 let behind = 0; // how much later than that the last message was
-let over = null; // how it ended
-let trail = [];
+let over = null; // how it ended, in words
+let stepsDone = null; // when it ended
+let trail = []; // [right, forward, up] in metres
 let me = null; // our name among the operators
 let view = ""; // the part of the page that is shown
 let decided = ""; // the last decision
@@ -29,6 +28,7 @@ let decidedAt = 0;
 let wanted = null; // where was clicked
 let wantedUntil = 0;
 let armedUntil = 0;
+let recoverUntil = 0;
 
 // ---- Connection.
 
@@ -42,9 +42,8 @@ function connect() {
     heard = performance.now();
     take(JSON.parse(event.data));
   };
-  socket.onclose = () => {
-    if (!over) setTimeout(connect, 500);
-  };
+  // The program may be started again at this address.
+  socket.onclose = () => setTimeout(connect, over ? 2000 : 500);
 }
 
 function order(request) {
@@ -54,7 +53,7 @@ function order(request) {
     return;
   }
   // Another order disarms the cut; sticks that are held do not.
-  if (!["steer", "camera"].includes(request.order)) armedUntil = 0;
+  if (!["steer", "camera"].includes(request.order)) armedUntil = recoverUntil = 0;
   // Not for another vehicle that is flown at the same address later.
   socket.send(JSON.stringify({ ...request, vehicle: flight?.vehicle }));
 }
@@ -73,10 +72,11 @@ function take(message) {
       plots.add(message);
       break;
     case "event":
+      if (message.warning) dangers.warn(message.text);
       addEvent(message);
       break;
     case "landed":
-      addEvent({ t_s: message.t_s, text: "landed" });
+      addEvent(message);
       break;
     case "ready":
       readiness = message;
@@ -104,6 +104,8 @@ function begin(message) {
   flight = message;
   trail = message.trail;
   decided = "";
+  // Another run of the program has begun, or this one goes on.
+  over = stepsDone = status = null;
   $("plan").textContent = message.plan || "ardrone-pilot";
   document.title = [message.plan, message.vehicle, "ardrone-pilot"].filter(Boolean).join(" – ");
   $("vehicle").textContent = message.vehicle;
@@ -141,27 +143,30 @@ function show(name) {
 }
 
 function finish(message) {
-  over = message;
   const steps = `${message.steps_done} of ${message.steps} steps`;
   const log = message.log ? ` Log: ${message.log}` : "";
-  $("alarm").textContent = `Over: ${message.outcome}; ${steps}.${log}`;
-  $("alarm").className = "over";
-  $("alarm").hidden = false;
+  over = `Over: ${message.outcome}; ${steps}.${log}`;
+  stepsDone = message.steps_done;
 }
 
+// Adds a line below the others, which stay where they are: nothing moves under the eye.
 function line(list, seconds, text, ill) {
   const item = document.createElement("li");
   const time = document.createElement("time");
   time.textContent = at(seconds);
   item.append(time, " ", text);
   if (ill) item.className = "ill";
-  $(list).prepend(item);
-  while ($(list).childElementCount > 100) $(list).lastElementChild.remove();
+  const lines = $(list);
+  // Somebody who has scrolled up reads.
+  const follows = lines.scrollHeight - lines.scrollTop - lines.clientHeight < 30;
+  lines.append(item);
+  while (lines.childElementCount > 100) lines.firstElementChild.remove();
+  if (follows) lines.scrollTop = lines.scrollHeight;
 }
 
 function addEvent(message) {
   const command = message.command ? `: ${message.command}` : "";
-  line("events", message.t_s, message.text + command, message.warning);
+  line("events", message.t_s, (message.text ?? message.type) + command, message.warning);
 }
 
 function decide(message) {
@@ -189,43 +194,41 @@ function trigger(plan) {
 
 function extendTrail(pose) {
   const last = trail[trail.length - 1];
-  if (last && Math.hypot(last[0] - pose.x_m, last[1] - pose.y_m) < 0.02) return;
-  trail.push([pose.x_m, pose.y_m]);
+  if (last && Math.hypot(last[0] - pose.x_m, last[1] - pose.y_m, last[2] - pose.z_m) < 0.02) return;
+  trail.push([pose.x_m, pose.y_m, pose.z_m]);
   if (trail.length > 2000) trail.shift();
 }
 
 // ---- Display. Drawn in animation frames, so that a page in the background costs nothing.
 
+let drawnAt = performance.now();
+
 function draw() {
   requestAnimationFrame(draw);
-  drawAlarm();
+  const now = performance.now();
+  // What is played is no longer looked at once something flies.
+  flights.advance((now - drawnAt) / 1000, status && ["flying", "landing"].includes(status.phase));
+  drawnAt = now;
+  dangers.draw();
+  drawAdvice();
   drawButtons();
+  document.body.classList.toggle("stale", Boolean(over) || !socket || socket.readyState !== WebSocket.OPEN);
   if (!flight) return;
   if (view !== "flights") map.draw();
+  if (view !== "flights") heights.draw();
   if (!status) return;
   drawFacts();
+  drawDoing();
   if (view === "plots") plots.draw();
   if (status.pose) drawGauges();
   drawSteps();
 }
 
-function drawAlarm() {
+function drawAdvice() {
   // A drone that has not been heard for this long is looked for, in seconds.
   const PATIENCE = 3;
   const connecting = !over && status && status.phase === "connecting" && status.navdata_age_s === null;
-  $("advice").hidden = !connecting || status.t_s < PATIENCE;
-  if (over) return;
-  const silence = performance.now() - heard;
-  const seconds = (time) => `${(time / 1000).toFixed(0)} s`;
-  let alarm = "";
-  if (silence > SILENCE) {
-    const since = heard ? ` for ${seconds(silence)}` : "";
-    alarm = `No data from ardrone-pilot${since}. The flight goes on without this page; see the terminal.`;
-  } else if (behind > SILENCE) {
-    alarm = `This page is ${seconds(behind)} behind: the connection is slow.`;
-  }
-  $("alarm").hidden = !alarm;
-  $("alarm").textContent = alarm;
+  $("advice").hidden = !connecting || status.t_s < PATIENCE || view !== "fly";
 }
 
 // Whether another page has the controls: they must be taken before anything that needs them.
@@ -233,53 +236,87 @@ function isWatching() {
   return Boolean(status && me && status.controls !== me && /browser/.test(status.controls ?? ""));
 }
 
+// Every button keeps its place: what cannot be used is grey.
 function drawButtons() {
   const live = !over && socket && socket.readyState === WebSocket.OPEN;
   const flying = live && status && status.phase === "flying";
+  const watching = isWatching();
   $("hold").disabled = !flying;
   // A delayed order to fly to a place must not be sent.
-  $("fly").disabled = !flying || !$("alarm").hidden;
-  const watching = isWatching();
-  $("take").hidden = !live || !status || !(watching || status.controls === me);
-  $("take").textContent = watching ? "Take the controls" : "Release the controls";
-  $("fly").disabled ||= watching;
+  $("fly").disabled = !flying || watching || !dangers.isCalm();
+  $("take").disabled = !live || !status || !(watching || status.controls === me);
+  $("take").textContent = status && status.controls === me ? "Release the controls" : "Take the controls";
   $("typed").disabled = !live || watching;
   $("resume").disabled = !flying || !status.mission_waits || watching;
   const standby = live && status && status.phase === "standby";
-  $("start").hidden = !standby;
-  $("start").disabled = !flight || !flight.steps.length || !readiness || !readiness.ready || watching;
+  $("start").disabled = !standby || !flight || !flight.steps.length || !readiness || !readiness.ready || watching;
   $("land").disabled = $("cut").disabled = !live;
-  // It is the bright one only where there is something to land: not after the motors were cut.
-  const grounded = !live || (status && ["connecting", "configuring", "standby"].includes(status.phase));
-  $("land").classList.toggle("quiet", Boolean(grounded));
+  const emergency = live && status && status.emergency;
+  $("recover").disabled = !emergency;
+  // The bright one is the one that helps.
+  const grounded = !live || !status || ["connecting", "configuring", "standby"].includes(status.phase);
+  $("land").classList.toggle("prime", !grounded && !emergency);
+  $("start").classList.toggle("prime", !$("start").disabled && !emergency);
+  $("recover").classList.toggle("prime", Boolean(emergency));
   const now = performance.now();
   const armed = now < armedUntil;
   $("cut").classList.toggle("armed", armed);
   $("cut").textContent = armed ? "Again: the drone FALLS" : "Cut motors";
+  $("recover").textContent = now < recoverUntil ? "Again: it may start" : "Recover";
   if (now > wantedUntil) wanted = null;
   $("go").hidden = !wanted || !flying;
   if (wanted) $("fly").textContent = `Fly to ${signed(wanted.x)}, ${signed(wanted.y)} m`;
 }
 
+// "1:05", of seconds.
+const minutes = (time) => `${Math.floor(time / 60)}:${String(Math.floor(time % 60)).padStart(2, "0")}`;
+
 function drawFacts() {
-  $("phase").textContent = over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? "manual, mission paused" : status.phase;
-  const grounded = !over && readiness && status.phase !== "flying" && status.phase !== "landing";
-  $("ready").textContent = !grounded ? "–" : readiness.ready ? "yes" : `no: ${readiness.reasons.join("; ")}`;
-  $("ready").classList.toggle("ill", grounded && !readiness.ready);
-  $("time").textContent = at(status.t_s);
-  $("step").textContent = status.step === null ? "–" : `${status.step + 1} of ${status.steps}`;
-  const charge = status.battery_percent;
-  $("battery").textContent = charge === null ? "–" : `${charge} %`;
+  const put = (id, text, ill = false) => {
+    if ($(id).textContent !== text) $(id).textContent = text;
+    $(id).classList.toggle("ill", ill);
+  };
+  const { pose, velocity_m_s: velocity, battery_percent: charge } = status;
+  put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? "mission paused" : status.phase);
+  put("time", status.flight_time_s === null ? "–" : minutes(status.flight_time_s));
+  put("step", status.step === null ? "–" : `${status.step + 1} of ${status.steps}`);
+  const volts = status.battery_v ? `, ${status.battery_v.toFixed(1)} V` : "";
+  put("battery", charge === null ? "–" : `${charge} %${volts}`, charge !== null && charge <= 20);
   $("charge").value = charge || 0;
+  // Until it is landed for its charge, by the use of a hover with a new battery.
+  const left = charge === null ? null : Math.max(0, charge - flight.battery_lands_percent) / flight.battery_percent_s;
+  put("left", left === null ? "–" : `≈ ${minutes(left)}`, left !== null && left < 60);
+  put("speed", velocity ? `${Math.hypot(...velocity).toFixed(1)} m/s` : "–");
+  put("high", pose ? `${pose.z_m.toFixed(1)} m` : "–");
+  put("home", pose ? `${Math.hypot(pose.x_m, pose.y_m).toFixed(1)} m` : "–");
   const age = status.navdata_age_s;
   const stale = age === null || age > 0.3;
-  $("link").textContent = age === null ? "none" : stale ? `NONE for ${age.toFixed(1)} s` : `${status.navdata_hz.toFixed(0)}/s, ${(age * 1000).toFixed(0)} ms old`;
-  $("link").classList.toggle("ill", stale);
-  $("who").textContent = !status.controls ? "nobody" : status.controls === me ? "you" : status.controls;
+  // Of the usual 15 packets a second.
+  const quality = age === null ? "none" : stale ? `none for ${age.toFixed(1)} s` : status.navdata_hz > 12 ? "good" : status.navdata_hz > 6 ? "weak" : "bad";
+  put("link", quality, stale || quality === "bad");
+  put("rate", age === null ? "none" : `${status.navdata_hz.toFixed(0)} a second, ${(age * 1000).toFixed(0)} ms old`);
+  put("who", !status.controls ? "nobody" : status.controls === me ? "you" : status.controls);
   $("who").title = status.controls ?? "";
-  $("ticks").textContent = `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`;
-  $("ticks").classList.toggle("ill", status.tick_late_s > 0.01);
-  $("since").textContent = decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "";
+  put("ticks", `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`, status.tick_late_s > 0.01);
+  put("since", decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "");
+}
+
+// What it is doing and what comes next.
+function drawDoing() {
+  const step = status.step === null ? null : flight.steps[status.step];
+  const following = status.step === null ? null : flight.steps[status.step + 1];
+  let [now, next] = [status.phase, ""];
+  if (status.phase === "flying" && status.manual) [now, next] = [`by hand: ${status.manual}`, "the mission waits: Resume goes on with it"];
+  else if (status.phase === "flying" && status.mission_waits) [now, next] = ["holding", "the mission waits: Resume goes on with it"];
+  else if (step && status.phase === "flying") {
+    const far = status.distance_m === null ? "" : `, ${status.distance_m.toFixed(1)} m to go`;
+    now = `step ${status.step + 1}: ${step.text}${far}`;
+    next = following ? `then ${following.text}` : "";
+  } else if (status.phase === "standby" && readiness) {
+    now = readiness.ready ? (flight.steps.length ? "ready to start" : "ready; there is no mission yet") : `not ready: ${readiness.reasons.join("; ")}`;
+  }
+  if ($("now").textContent !== now) $("now").textContent = now;
+  if ($("next").textContent !== next) $("next").textContent = next;
 }
 
 function drawGauges() {
@@ -295,12 +332,13 @@ function drawGauges() {
   $("aloft").style.display = status.target ? "" : "none";
   if (status.target) $("aloft").setAttribute("transform", `translate(0 ${y(status.target.z_m)})`);
   $("ceiling").textContent = `${flight.ceiling_m} m`;
-  const place = (pose) => `${signed(pose.x_m)} ${signed(pose.y_m)} ${signed(pose.z_m)} m`;
-  $("at").textContent = `${place(status.pose)} ${signed(status.pose.yaw_deg, 0)}°`;
-  $("target").textContent = status.target ? place(status.target) : "–";
-  $("off").textContent = status.target ? `${status.distance_m.toFixed(2)} m` : "–";
-  $("tagged").hidden = !status.tags;
-  if (status.tags) $("tagsknown").textContent = map.tagsText();
+  const metres = (value) => `${signed(value)} m`;
+  const { pose, target } = status;
+  [$("x").textContent, $("y").textContent, $("z").textContent] = [pose.x_m, pose.y_m, pose.z_m].map(metres);
+  $("heading").textContent = `${signed(pose.yaw_deg, 0)}°`;
+  $("target").textContent = target ? `${signed(target.x_m)} ${signed(target.y_m)} ${signed(target.z_m)} m` : "–";
+  $("off").textContent = target ? `${status.distance_m.toFixed(2)} m` : "–";
+  $("tagsknown").textContent = status.tags ? map.tagsText() : "not in use";
   const known = status.contradicted_by ? `contradicted by ${status.contradicted_by}` : status.horizontal_deviation_holds;
   $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m, ${known}`;
   $("known").classList.toggle("ill", Boolean(status.contradicted_by));
@@ -309,11 +347,15 @@ function drawGauges() {
 function drawSteps() {
   [...$("steps").children].forEach((item, index) => {
     const now = index === status.step;
-    const done = index < (over ? over.steps_done : (status.step ?? 0));
+    const done = index < (stepsDone ?? status.step ?? 0);
     const name = done ? "done" : now ? "now" : "";
     if (item.className === name) return;
     item.className = name;
-    if (now) item.scrollIntoView({ block: "nearest" });
+    if (!now) return;
+    // Only the list is moved, not the page.
+    const list = item.closest("section");
+    const [outer, inner] = [list.getBoundingClientRect(), item.getBoundingClientRect()];
+    list.scrollTop += Math.max(0, inner.bottom - outer.bottom) + Math.min(0, inner.top - outer.top);
   });
 }
 
@@ -328,8 +370,14 @@ $("cut").onclick = () => {
   armedUntil = 0;
   order({ order: armed ? "cut" : "arm" });
 };
+$("recover").onclick = () => {
+  const again = performance.now() < recoverUntil;
+  if (again) order({ order: "recover" });
+  recoverUntil = again ? 0 : performance.now() + CUT_AGAIN;
+};
 $("map").addEventListener("click", (event) => {
-  if (view !== "fly") return;
+  if (view !== "fly" || map.wasMoved()) return;
+  map.keep();
   wanted = map.place(event);
   wantedUntil = performance.now() + GO_AGAIN;
 });
@@ -348,8 +396,38 @@ $("typing").onsubmit = (event) => {
   order({ order: "typed", line });
   $("typed").value = "";
 };
+$("help").onclick = () => $("keys").showModal();
+
+// Asks before something is lost. It resolves to whether to go on.
+function confirmed(question, does) {
+  const dialog = $("ask");
+  $("asked").textContent = question;
+  $("askyes").textContent = does;
+  dialog.returnValue = "no";
+  dialog.showModal();
+  return new Promise((resolve) => (dialog.onclose = () => resolve(dialog.returnValue === "yes")));
+}
+
+// Keys as in the terminal. One that is held is one order, and letters that are typed are letters.
 document.addEventListener("keydown", (event) => {
+  const writes = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName) && event.target.type !== "checkbox";
   if (event.key === "Escape") wanted = null;
+  if (writes || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+  const airborne = status && ["flying", "landing"].includes(status.phase);
+  const does = {
+    // In the air it holds, whatever button was pressed last; on the ground it presses a button, as everywhere.
+    " ": airborne && "hold",
+    l: "land",
+    r: status && status.mission_waits && "resume",
+  }[event.key.toLowerCase()];
+  if (event.key === "?") $("keys").showModal();
+  else if (!does) return;
+  else if (!event.repeat) order({ order: does });
+  event.preventDefault();
+});
+// A button that has the focus is pressed by the release of the space bar.
+document.addEventListener("keyup", (event) => {
+  if (event.key === " " && event.target.tagName === "BUTTON" && status && ["flying", "landing"].includes(status.phase)) event.preventDefault();
 });
 
 addEventListener("load", () => {

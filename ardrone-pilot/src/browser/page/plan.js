@@ -14,6 +14,10 @@ land
   const KEPT = "ardrone-pilot plan";
   // Time to confirm what cannot be taken back, in milliseconds.
   const AGAIN = 3000;
+  // Largest plan that is taken, as of the server.
+  const MOST_BYTES = 32 << 10;
+  // Problems that are listed; nobody reads more.
+  const MOST_PROBLEMS = 100;
   // Of the plan language: { name, help, example, numbers: [[name, unit]], isTarget }.
   let commands = [];
   const declared = (name) => commands.find((command) => command.name === name);
@@ -23,7 +27,10 @@ land
   let flown = null; // the simulated flight of the text
   let checking = false; // a check is on its way
   let stale = false; // the text has changed meanwhile
-  let rows = []; // of the list: { key, item, inputs }
+  let rows = []; // of the list: { key, index, item, inputs, note }
+  let drawn = ""; // the marks on the map
+  let saved = ""; // the text as it was opened or saved
+  const history = new History();
   let drag = null; // the target that is dragged: { line, last }
   let pressed = false; // a target was pressed: the click that follows adds none
   let dragged = false; // .. and was moved
@@ -46,19 +53,36 @@ land
   const lines = () => text.value.split("\n");
 
   // Sets numbers of a line: { 1: "0.5" } is the first.
-  function setNumbers(index, numbers) {
+  function setNumbers(index, numbers, kind) {
     const all = lines();
     for (const place of Object.keys(numbers).map(Number).sort((one, other) => other - one)) {
       const found = words(all[index])[place];
       if (found) all[index] = all[index].slice(0, found.at) + numbers[place] + all[index].slice(found.at + found.word.length);
     }
-    write(all.join("\n"));
+    write(all.join("\n"), kind);
   }
 
-  function write(value) {
+  // Changes of one kind in a row are undone together.
+  function write(value, kind = "") {
     text.value = value;
+    record(kind);
     changed();
   }
+
+  const record = (kind) => history.record({ name: $("planname").value, text: text.value, saved }, kind);
+
+  // Undoes (−1) or does again (1).
+  function travel(by) {
+    if (!history.canMove(by)) return;
+    const state = history.move(by);
+    $("planname").value = state.name;
+    text.value = state.text;
+    saved = state.saved;
+    changed();
+  }
+
+  const isLarge = () => new Blob([text.value]).size > MOST_BYTES;
+  const isUnsaved = () => text.value !== saved;
 
   function changed() {
     flown = null;
@@ -66,11 +90,12 @@ land
     asked = { what: "", until: 0 };
     $("simulation").textContent = "";
     try {
-      sessionStorage.setItem(KEPT, JSON.stringify([$("planname").value, text.value]));
+      sessionStorage.setItem(KEPT, JSON.stringify([$("planname").value, text.value, saved]));
     } catch {
       // Without storage a reload forgets it.
     }
     drawList();
+    drawButtons();
     check();
   }
 
@@ -82,6 +107,7 @@ land
     try {
       while (stale) {
         stale = false;
+        if (isLarge()) throw new Error(tooLarge("it", new Blob([text.value]).size));
         const response = await ask("plan/check", { method: "POST", body: text.value });
         if (!response.ok) throw new Error(await response.text());
         const found = await response.json();
@@ -96,59 +122,84 @@ land
     drawChecked();
   }
 
+  const tooLarge = (what, bytes) => `${what} has ${(bytes / 1024).toFixed(0)} kB; a plan is text of at most ${MOST_BYTES >> 10} kB`;
+
   const isGood = () => Boolean(checked && checked.steps && !stale);
 
   // ---- The list.
 
+  // Makes anew only the rows that have another form than before: between those at the beginning and at the end that are the same.
   function drawList() {
-    const commands = lines().map((line, index) => ({ index, found: words(line) })).filter(({ found }) => found.length);
-    const key = ({ index, found }) => `${index} ${found[0].word} ${found.length}`;
-    if (rows.length !== commands.length || rows.some((row, at) => row.key !== key(commands[at]))) {
-      rows = commands.map((command) => ({ key: key(command), ...row(command) }));
-      $("draftsteps").replaceChildren(...rows.map(({ item }) => item));
-    }
-    // What is being typed into stays as it is.
-    rows.forEach(({ inputs }, at) =>
-      inputs.forEach((input, place) => {
+    const commands = isLarge() ? [] : lines().map((line, index) => ({ index, found: words(line) })).filter(({ found }) => found.length);
+    const key = ({ found }) => `${found[0].word} ${found.length} ${found.slice(1).every(({ word }) => Number.isFinite(Number(word)))}`;
+    const keys = commands.map(key);
+    const shared = (one, other) => {
+      let count = 0;
+      while (count < Math.min(rows.length, keys.length) && one(count) === other(count)) count += 1;
+      return count;
+    };
+    const before = shared((at) => rows[at].key, (at) => keys[at]);
+    const most = Math.min(rows.length, keys.length) - before;
+    const after = Math.min(most, shared((at) => rows.at(-1 - at).key, (at) => keys.at(-1 - at)));
+    const made = commands.slice(before, commands.length - after).map((command, at) => row(command, keys[before + at]));
+    const gone = rows.splice(before, rows.length - before - after, ...made);
+    const next = rows[before + made.length]?.item ?? null;
+    for (const { item } of gone) item.remove();
+    for (const { item } of made) $("draftsteps").insertBefore(item, next);
+    rows.forEach((row, at) => {
+      const { index, found } = commands[at];
+      if (row.index !== index) row.place(index);
+      row.inputs.forEach((input, place) => {
         // A number as its field writes it: not "+1" or "1.".
-        if (input !== document.activeElement) input.value = String(Number(commands[at].found[place + 1]?.word));
-      }));
+        const value = String(Number(found[place + 1].word));
+        // What is being typed into stays as it is.
+        if (input !== document.activeElement && input.value !== value) input.value = value;
+      });
+      if (!row.inputs.length) row.rest.textContent = ` ${found.slice(1).map(({ word }) => word).join(" ")}`;
+    });
   }
 
-  function row({ index, found }) {
+  function row({ found }, key) {
     const item = document.createElement("li");
     const name = document.createElement("b");
+    const rest = document.createElement("span");
+    const number = document.createElement("i");
     name.textContent = found[0].word;
-    const what = `line ${index + 1}, ${found[0].word}`;
-    item.append(name);
+    item.append(number, name);
     const numbers = found.slice(1).every(({ word }) => Number.isFinite(Number(word)));
     const fields = numbers ? (declared(found[0].word)?.numbers ?? []).slice(0, found.length - 1) : [];
-    const inputs = fields.map(([field, unit], place) => {
+    const made = { key, index: -1, item, number, rest, inputs: [] };
+    const named = []; // elements, with what is said of them behind the line's number
+    made.inputs = fields.map(([field, unit], place) => {
       const input = document.createElement("input");
       Object.assign(input, { type: "number", step: unit.includes("°") ? 15 : 0.1, title: `${field}, ${unit}` });
-      input.ariaLabel = `${what}: ${field}, ${unit}`;
-      input.oninput = () => input.value && setNumbers(index, { [place + 1]: input.value });
+      named.push([input, (what) => `${what}: ${field}, ${unit}`]);
+      input.oninput = () => input.value && setNumbers(made.index, { [place + 1]: input.value }, `number ${made.index} ${place}`);
       // What was cleared and left is as it was.
-      input.onblur = drawList;
+      input.onblur = () => {
+        history.pause();
+        drawList();
+      };
       item.append(input);
       return input;
     });
-    if (!inputs.length) item.append(" ", found.slice(1).map(({ word }) => word).join(" "));
-    const note = document.createElement("span");
-    note.className = "faint";
-    item.append(note);
+    if (!fields.length) item.append(rest);
+    made.note = Object.assign(document.createElement("span"), { className: "faint" });
+    item.append(made.note);
     const button = (sign, does, action) => {
-      const element = document.createElement("button");
-      element.textContent = sign;
-      element.ariaLabel = `${does} ${what}`;
-      element.title = does;
-      element.onclick = action;
+      const element = Object.assign(document.createElement("button"), { textContent: sign, title: does, onclick: action });
+      named.push([element, (what) => `${does} ${what}`]);
       item.append(element);
     };
-    button("↑", "move up", () => move(index, -1));
-    button("↓", "move down", () => move(index, 1));
-    button("✕", "remove", () => write(lines().filter((_, line) => line !== index).join("\n")));
-    return { item, inputs, note, line: index + 1 };
+    button("↑", "move up", () => move(made.index, -1));
+    button("↓", "move down", () => move(made.index, 1));
+    button("✕", "remove", () => write(lines().filter((_, line) => line !== made.index).join("\n")));
+    made.place = (index) => {
+      made.index = index;
+      const what = `line ${index + 1}, ${found[0].word}`;
+      for (const [element, says] of named) element.ariaLabel = says(what);
+    };
+    return made;
   }
 
   // Exchanges a command with the one before or behind it.
@@ -189,7 +240,7 @@ land
 
   function drawChecked() {
     const problems = checked ? checked.problems : [];
-    $("problems").replaceChildren(...problems.map((problem) => {
+    $("problems").replaceChildren(...problems.slice(0, MOST_PROBLEMS).map((problem) => {
       const item = document.createElement("li");
       item.className = problem.severity === "error" ? "error" : "warning";
       const words = `${problem.severity}${problem.line ? `, line ${problem.line}` : ""}: ${problem.message}${problem.help ? ` (${problem.help})` : ""}`;
@@ -204,10 +255,15 @@ land
     }));
     text.ariaInvalid = String(problems.some(({ severity }) => severity === "error"));
     const steps = checked && checked.steps ? checked.steps : [];
-    for (const { note, line, item } of rows) {
-      const step = steps.find((step) => step.line === line);
-      note.textContent = step && step.time_s ? ` ${step.time_s.toFixed(1)} s` : "";
-      item.className = problems.some((problem) => problem.line === line) ? "ill" : "";
+    const byLine = new Map(steps.map((step, index) => [step.line, { step, number: index + 1 }]));
+    const ill = new Set(problems.map(({ line }) => line));
+    for (const { note, number, index, item } of rows) {
+      const found = byLine.get(index + 1);
+      const counted = found ? String(found.number) : "";
+      if (number.textContent !== counted) number.textContent = counted;
+      const said = found?.step.time_s ? ` ${found.step.time_s.toFixed(1)} s` : "";
+      if (note.textContent !== said) note.textContent = said;
+      item.classList.toggle("ill", ill.has(index + 1));
     }
     const sum = (of) => steps.reduce((total, step) => total + of(step), 0);
     $("expected").textContent = steps.length
@@ -229,6 +285,9 @@ land
     const armed = (what) => asked.what === what && performance.now() < asked.until;
     $("load").textContent = armed("load") ? "Again: it is flown at once" : "Use this plan";
     $("saveplan").textContent = armed("save") ? "Again: replace the file" : "Save";
+    $("undo").disabled = !history.canMove(-1);
+    $("redo").disabled = !history.canMove(1);
+    $("unsaved").hidden = !isUnsaved();
   }
 
   // Whether something that cannot be taken back was asked for twice.
@@ -243,11 +302,12 @@ land
   // Of the checked plan: { x, y, line, label }.
   function targets() {
     const steps = checked && checked.steps ? checked.steps : [];
-    return steps.filter((step) => step.target && step.line).map(({ target, line }, index) => ({ x: target.x_m, y: target.y_m, line, label: index + 1 }));
+    const numbered = steps.map(({ target, line }, index) => ({ target, line, label: index + 1 }));
+    return numbered.filter(({ target, line }) => target && line).map(({ target, line, label }) => ({ x: target.x_m, y: target.y_m, z: target.z_m, line, label }));
   }
 
-  function canBeDragged({ line }) {
-    const found = words(lines()[line - 1] ?? "");
+  function canBeDragged({ line }, all) {
+    const found = words(all[line - 1] ?? "");
     return declared(found[0]?.word)?.isTarget && found.slice(1, 3).length === 2 && found.slice(1, 3).every(({ word }) => Number.isFinite(Number(word)));
   }
 
@@ -257,6 +317,9 @@ land
     const shown = view === "plan";
     $("simulated").setAttribute("points", shown && flown && flown.track ? points(flown.track.map(([, x, y]) => [x, y])) : "");
     const wanted = shown ? targets() : [];
+    const key = JSON.stringify([size, wanted, text.value]);
+    if (key === drawn) return;
+    drawn = key;
     const marks = $("drafts").children;
     while (marks.length > wanted.length) marks[marks.length - 1].remove();
     while (marks.length < wanted.length) {
@@ -264,10 +327,11 @@ land
       mark.append(svg("circle", { r: 1.1 }), svg("text", { "font-size": 1.2 }));
       $("drafts").append(mark);
     }
+    const all = lines();
     wanted.forEach((target, index) => {
       const mark = marks[index];
       mark.dataset.line = target.line;
-      mark.setAttribute("class", canBeDragged(target) ? "free" : "");
+      mark.setAttribute("class", canBeDragged(target, all) ? "free" : "");
       mark.setAttribute("transform", `translate(${target.x} ${-target.y}) scale(${size * 0.8})`);
       mark.lastChild.textContent = target.label;
     });
@@ -289,14 +353,18 @@ land
     const now = map.place(event);
     const found = words(lines()[drag.line - 1] ?? "");
     const moved = (place, by) => (Number(found[place].word) + by).toFixed(2);
-    setNumbers(drag.line - 1, { 1: moved(1, now.x - drag.last.x), 2: moved(2, now.y - drag.last.y) });
+    setNumbers(drag.line - 1, { 1: moved(1, now.x - drag.last.x), 2: moved(2, now.y - drag.last.y) }, `drag ${drag.line}`);
     drag.last = now;
   });
-  const dropped = () => (drag = null);
+  const dropped = () => {
+    drag = null;
+    history.pause();
+  };
   $("map").addEventListener("pointerup", dropped);
   $("map").addEventListener("pointercancel", dropped);
   $("map").addEventListener("click", (event) => {
-    if (view !== "plan" || pressed) return;
+    if (view !== "plan" || pressed || map.wasMoved()) return;
+    map.keep();
     add(target(map.place(event)));
   });
 
@@ -318,17 +386,23 @@ land
     $("plans").replaceChildren(none, ...options);
   }
 
-  function open(name, content) {
+  function open(name, content, kept = content) {
     $("planname").value = name;
+    saved = kept;
     write(content);
   }
+
+  // Whether another plan may take the place of this one.
+  const mayOpen = async (name) => !isUnsaved() || (await confirmed(`Changes of ${fileName()} are not saved. Open ${name} in its place?`, "Open it"));
 
   $("plans").onchange = async () => {
     const name = $("plans").value;
     $("plans").value = "";
     if (!name) return;
-    if (name === "*" || name === "-") {
-      open(name === "*" ? "example.txt" : "my plan.txt", name === "*" ? EXAMPLE : "takeoff\nland\n");
+    const ours = { "*": ["example.txt", EXAMPLE, "the example"], "-": ["my plan.txt", "takeoff\nland\n", "an empty plan"] }[name];
+    if (!(await mayOpen(ours ? ours[2] : name))) return;
+    if (ours) {
+      open(ours[0], ours[1]);
       return;
     }
     try {
@@ -341,16 +415,20 @@ land
   };
   $("upload").onchange = async () => {
     const [file] = $("upload").files;
-    if (file) open(file.name, await file.text());
     $("upload").value = "";
+    if (!file) return;
+    // Looked at before it is read: a large one would be slow to show.
+    if (file.size > MOST_BYTES) answer(`${tooLarge(file.name, file.size)}.`);
+    else if (await mayOpen(file.name)) open(file.name, await file.text());
   };
   $("saveplan").onclick = async () => {
     const name = fileName();
     // A file of that name is replaced only on a second click.
     const replaces = twice("save");
     const headers = replaces ? {} : { "If-None-Match": "*" };
+    const body = text.value;
     try {
-      const response = await ask(`plans/${encodeURIComponent(name)}`, { method: "PUT", headers, body: text.value });
+      const response = await ask(`plans/${encodeURIComponent(name)}`, { method: "PUT", headers, body });
       if (response.status === 412) {
         answer(`${name} exists: press again to replace it.`);
         return;
@@ -358,6 +436,9 @@ land
       if (!response.ok) throw new Error(await response.text());
       asked = { what: "", until: 0 };
       answer(`Saved as ${name}.`);
+      saved = body;
+      record("");
+      drawButtons();
       list();
     } catch (error) {
       asked = { what: "", until: 0 };
@@ -415,7 +496,29 @@ land
     const last = targets().at(-1) ?? { x: 0, y: 0 };
     add(command.startsWith("goto ") ? target({ x: last.x, y: last.y + 1 }) : command);
   };
-  text.oninput = changed;
+  text.oninput = () => {
+    record("typing");
+    changed();
+  };
+  // The browser's own history knows only what was typed, and mixes it with what was written by other means.
+  text.addEventListener("beforeinput", (event) => {
+    const by = { historyUndo: -1, historyRedo: 1 }[event.inputType];
+    if (!by) return;
+    event.preventDefault();
+    travel(by);
+  });
+  $("undo").onclick = () => travel(-1);
+  $("redo").onclick = () => travel(1);
+  document.addEventListener("keydown", (event) => {
+    // Other fields have a history of their own.
+    const inEditor = view === "plan" && !["planname", "typed"].includes(event.target.id);
+    if (!inEditor || !(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const key = event.key.toLowerCase();
+    const by = key === "z" ? (event.shiftKey ? 1 : -1) : key === "y" ? 1 : 0;
+    if (!by) return;
+    event.preventDefault();
+    travel(by);
+  });
 
   return {
     // The first message has come: there is a text to begin with.
@@ -433,13 +536,14 @@ land
       } catch {
         // What was kept is not ours.
       }
-      if (kept) open(kept[0], kept[1]);
+      if (kept) open(kept[0], kept[1], kept[2]);
       else if (message.steps.length) this.edit(message);
       else open("example.txt", EXAMPLE);
     },
     // Edits the mission of the vehicle.
-    edit(message) {
+    async edit(message) {
       const name = message.plan.split(/[\\/]/).at(-1) || "mission.txt";
+      if (view && !(await mayOpen(`the mission ${name}`))) return;
       open(name, message.steps.map((step) => step.text).join("\n") + "\n");
       if (view) show("plan");
     },

@@ -5,19 +5,22 @@ const plots = (() => {
   const SHOWN = 60; // seconds
   const EVERY = 200; // milliseconds between two drawings
   const LINES = 3; // at most, in one plot
-  // Name, unit, least range, and what of a status is drawn.
+  const [LEFT, BELOW] = [44, 16]; // room for the axes, in pixels
+  // Name, unit, least range, names of the lines, what of a status is drawn, and the least value if there is one.
   const PLOTS = [
     ["position", "m", 1, ["right", "forward", "up"], ({ pose }) => (pose ? [pose.x_m, pose.y_m, pose.z_m] : [])],
     ["speed", "m/s", 0.5, ["right", "forward", "up"], ({ velocity_m_s: speed }) => speed ?? []],
-    ["distance to the target", "m", 0.5, ["distance"], ({ distance_m }) => [distance_m]],
+    ["distance to the target", "m", 0.5, ["distance"], ({ distance_m }) => [distance_m], 0],
     ["tilt", "°", 5, ["right", "forward"], ({ attitude_deg: tilt }) => (tilt ? [tilt[0], -tilt[1]] : [])],
-    ["battery", "%", 10, ["charge"], ({ battery_percent }) => [battery_percent]],
-    ["age of the navdata", "ms", 50, ["age"], ({ navdata_age_s: age }) => [age === null ? null : age * 1000]],
-    ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000]],
+    ["battery", "%", 10, ["charge"], ({ battery_percent }) => [battery_percent], 0],
+    ["age of the navdata", "ms", 50, ["age"], ({ navdata_age_s: age }) => [age === null ? null : age * 1000], 0],
+    ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000], 0],
   ];
 
   let rows = []; // [time, a list of values for each plot]
   let drawn = 0;
+  let paused = null; // the rows that are looked at meanwhile
+  let pointed = null; // share of the width that is pointed at
   const figures = PLOTS.map(([name, unit, , lines]) => {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
@@ -26,6 +29,8 @@ const plots = (() => {
     const canvas = document.createElement("canvas");
     canvas.role = "img";
     canvas.ariaLabel = `${name} in the last minute: ${lines.join(", ")}`;
+    canvas.onpointermove = (event) => (pointed = (event.offsetX - LEFT) / (canvas.clientWidth - LEFT));
+    canvas.onpointerleave = () => (pointed = null);
     figure.append(caption, canvas);
     $("plots").append(figure);
     return { canvas, now };
@@ -48,10 +53,23 @@ const plots = (() => {
     if (performance.now() - drawn < EVERY || !rows.length) return;
     drawn = performance.now();
     const colours = samples.map((sample) => getComputedStyle(sample).color);
-    PLOTS.forEach((plot, index) => drawOne(plot, index, figures[index], colours));
+    const shown = paused ?? rows;
+    const end = shown.at(-1)[0];
+    // The row that is pointed at, or the last one.
+    const time = pointed === null ? end : end - SHOWN * (1 - Math.max(0, Math.min(1, pointed)));
+    const row = shown.find(([at]) => at >= time) ?? shown.at(-1);
+    $("plotsat").textContent = pointed === null ? "the last minute; point at a plot for its values" : `at ${row[0].toFixed(1)} s`;
+    PLOTS.forEach((plot, index) => drawOne(plot, index, figures[index], colours, shown, row));
   }
 
-  function drawOne([, , least, names], index, { canvas, now }, colours) {
+  $("pauseplots").onclick = () => {
+    paused = paused ? null : [...rows];
+    $("pauseplots").ariaPressed = String(Boolean(paused));
+    $("pauseplots").textContent = paused ? "Go on" : "Pause";
+    drawn = 0;
+  };
+
+  function drawOne([, , least, names, , floor], index, { canvas, now }, colours, rows, row) {
     const { width, height } = canvas.getBoundingClientRect();
     const scale = devicePixelRatio || 1;
     if (canvas.width !== Math.round(width * scale)) canvas.width = Math.round(width * scale);
@@ -66,10 +84,10 @@ const plots = (() => {
     }
     let [low, high] = [Math.min(...values), Math.max(...values)];
     const room = Math.max(0, least - (high - low)) / 2 + (high - low) * 0.05;
-    [low, high] = [low - room, high + room];
+    [low, high] = [Math.max(low - room, floor ?? -Infinity), high + room];
     const end = rows.at(-1)[0];
-    const x = (time) => width - ((end - time) / SHOWN) * (width - 44);
-    const y = (value) => 6 + ((high - value) / (high - low)) * (height - 12);
+    const x = (time) => width - ((end - time) / SHOWN) * (width - LEFT);
+    const y = (value) => 6 + ((high - value) / (high - low)) * (height - 12 - BELOW);
     context.font = "11px system-ui, sans-serif";
     const style = getComputedStyle(canvas);
     context.fillStyle = style.color;
@@ -77,16 +95,27 @@ const plots = (() => {
     context.lineWidth = 1;
     for (const value of [low, (low + high) / 2, high]) {
       context.beginPath();
-      context.moveTo(44, y(value));
+      context.moveTo(LEFT, y(value));
       context.lineTo(width, y(value));
       context.stroke();
       context.fillText(value.toFixed(high - low < 10 ? 1 : 0), 0, Math.max(10, Math.min(height - 2, y(value) + 4)));
     }
-    const last = rows.at(-1)[1][index];
+    for (let time = Math.ceil((end - SHOWN) / 10) * 10; time <= end; time += 10) {
+      if (time < 0 || x(time) > width - 20) continue;
+      context.fillText(`${time} s`, x(time) - 8, height - 3);
+    }
+    if (row !== rows.at(-1)) {
+      context.beginPath();
+      context.moveTo(x(row[0]), 6);
+      context.lineTo(x(row[0]), height - BELOW);
+      context.stroke();
+    }
+    const digits = least >= 10 ? 0 : least >= 5 ? 1 : 2;
+    const last = row[1][index];
     now.replaceChildren(...names.map((name, line) => {
       const label = document.createElement("b");
       label.className = `line${line}`;
-      label.textContent = `${names.length > 1 ? `${name} ` : ""}${Number.isFinite(last[line]) ? last[line].toFixed(2) : "–"} `;
+      label.textContent = `${names.length > 1 ? `${name} ` : ""}${Number.isFinite(last[line]) ? last[line].toFixed(digits) : "–"} `;
       return label;
     }));
     names.forEach((_, line) => {

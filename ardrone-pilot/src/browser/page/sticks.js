@@ -27,6 +27,10 @@
 
   function move(name, [x, y]) {
     pads[name] = [x, y];
+    draw(name, [x, y]);
+  }
+
+  function draw(name, [x, y]) {
     const knob = document.querySelector(`#${name} i`);
     knob.style.transform = `translate(${x * 44}px, ${y * 44}px)`;
   }
@@ -35,6 +39,7 @@
     on = pressed;
     button.ariaPressed = String(on);
     panel.hidden = !on;
+    document.body.classList.toggle("hand", on);
     if (!on) let_go();
   }
 
@@ -71,6 +76,12 @@
     button.disabled = !flying;
     if (!flying && on) set(false);
     const demand = on ? sticks() : { roll: 0, pitch: 0, gaz: 0, yaw: 0 };
+    // As they are pressed, by whatever presses them.
+    if (on) {
+      const shown = (value) => Math.sign(value) * Math.sqrt(Math.abs(value));
+      draw("left", [shown(demand.yaw), shown(-demand.gaz)]);
+      draw("right", [shown(demand.roll), shown(demand.pitch)]);
+    }
     const active = Object.values(demand).some((value) => value !== 0);
     // Centred sticks are sent once.
     if (active || steering) order({ order: "steer", ...demand });

@@ -100,7 +100,7 @@
     socket.onmessage = (event) => decode(event.data);
     socket.onclose = () => {
       reset();
-      if (!over) setTimeout(connect, 1000);
+      setTimeout(connect, over ? 3000 : 1000);
     };
   }
 
@@ -110,13 +110,15 @@
     const old = drawnAt && performance.now() - drawnAt > OLD;
     canvas.classList.toggle("old", Boolean(old));
     if (old && note.hidden) say("no new picture");
-    if (!status || !status.pose) return;
+    if (!status) return;
+    for (const camera of ["front", "bottom"]) document.getElementById(camera).ariaPressed = String(camera === status.camera);
+    if (!status.pose) return;
     const [roll, pitch] = status.attitude_deg || [0, 0];
     // The front camera sees 92 degrees along the diagonal of 734 pixels.
     const PIXELS_PER_DEGREE = 8;
     const horizon = document.getElementById("sky");
     // There is none below.
-    horizon.style.display = document.getElementById("bottom").ariaPressed === "true" ? "none" : "";
+    horizon.style.display = status.camera === "bottom" ? "none" : "";
     horizon
       .setAttribute("transform", `translate(320 180) rotate(${-roll}) translate(0 ${PIXELS_PER_DEGREE * pitch})`);
     const target = status.target ? `, target ${signed(status.target.z_m)} m, ${status.distance_m.toFixed(1)} m away` : "";
@@ -125,10 +127,7 @@
   }
 
   for (const camera of ["front", "bottom"]) {
-    document.getElementById(camera).onclick = () => {
-      order({ order: "camera", camera });
-      for (const other of ["front", "bottom"]) document.getElementById(other).ariaPressed = String(other === camera);
-    };
+    document.getElementById(camera).onclick = () => order({ order: "camera", camera });
   }
 
   shoot.onclick = () => {

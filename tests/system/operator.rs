@@ -1,0 +1,236 @@
+//! What an operator relies on in the page while something flies: a real Chromium, the program, the mock drone.
+
+use std::process::{Child, Stdio};
+
+use serde_json::json;
+
+use crate::chromium::{Chromium, Tab};
+use crate::processes::{plan_file, program, signal, with_page};
+
+const HOVER: &str = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
+
+/// The program with a page.
+struct Station {
+    child: Child,
+    url: String,
+}
+
+impl Station {
+    /// At rest, with a mission that begins to hover.
+    fn start(address: &str) -> Self {
+        let mut pilot = program("ardrone-pilot");
+        pilot.args(["--mock", "--plain", "--no-log", "--ui", address]);
+        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
+        Self { child, url }
+    }
+
+    /// Flies the mission at once.
+    fn flying() -> Self {
+        let plan = plan_file(HOVER);
+        let mut pilot = program("ardrone-pilot");
+        pilot.arg("--plan").arg(plan.path());
+        pilot.args(["--mock", "--plain", "--no-log", "--ui", "0"]);
+        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
+        Self { child, url }
+    }
+}
+
+impl Drop for Station {
+    fn drop(&mut self) {
+        // The process may have ended already.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+fn text(chromium: &mut Chromium, tab: &Tab, selector: &str) -> String {
+    let text = format!("document.querySelector('{selector}').textContent");
+    chromium.evaluate(tab, &text).as_str().unwrap().to_owned()
+}
+
+/// After a cut in the air the page says what happened and what to do, is heard, and leads back to a drone that can start.
+#[test]
+fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0");
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    let load = format!("order({})", json!({ "order": "load", "name": "hover", "plan": HOVER }));
+    chromium.evaluate(&tab, &load);
+    chromium.wait(&tab, "flight.plan === 'hover'");
+    chromium.click(&tab, "[data-show=fly]", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#start').classList.contains('prime')");
+    assert_eq!(chromium.evaluate(&tab, "document.querySelector('#recover').disabled"), true);
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.5");
+    chromium.wait(&tab, "document.querySelector('#land').classList.contains('prime')");
+    for _ in 0..2 {
+        chromium.click(&tab, "#cut", [0.0; 2]);
+    }
+    chromium.wait(&tab, "document.querySelector('#alarm').innerText.startsWith('EMERGENCY')");
+    assert_eq!(text(&mut chromium, &tab, "#phase"), "EMERGENCY");
+    assert!(text(&mut chromium, &tab, "#alarm").contains("Recover"));
+    assert_eq!(chromium.evaluate(&tab, "document.querySelector('#bar').className"), "alarm");
+    let heard = chromium.evaluate(&tab, "dangers.heard().includes('alarm')");
+    assert_eq!(heard, true);
+    for button in ["land", "start"] {
+        let bright = format!("document.querySelector('#{button}').classList.contains('prime')");
+        assert_eq!(chromium.evaluate(&tab, &bright), false, "{button}");
+    }
+    chromium.wait(&tab, "document.querySelector('#recover').classList.contains('prime')");
+    // One click asks, and two do.
+    chromium.click(&tab, "#recover", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#recover').innerText.startsWith('Again')");
+    assert_eq!(chromium.evaluate(&tab, "status.emergency"), true);
+    chromium.click(&tab, "#recover", [0.0; 2]);
+    chromium.wait(&tab, "!status.emergency && document.querySelector('#alarm').hidden");
+    chromium.wait(&tab, "!document.querySelector('#start').disabled");
+}
+
+/// The largest sum of layout shifts within five seconds, as Chromium's own figure, and what moved.
+const SHIFTS: &str = "window.shifts = []; new PerformanceObserver((list) => { \
+    for (const entry of list.getEntries()) if (!entry.hadRecentInput) shifts.push([entry.startTime, entry.value, \
+    ...entry.sources.map(({ node }) => node?.id || node?.parentElement?.id || node?.nodeName)]); \
+    }).observe({ type: 'layout-shift' }); window.cls = () => Math.max(0, ...shifts.map(([from]) => \
+    shifts.filter(([at]) => at >= from && at < from + 5000).reduce((sum, [, value]) => sum + value, 0))); true";
+
+/// Whatever is said in a flight, nothing moves: neither the buttons nor anything else, on large and on small screens.
+#[test]
+fn nothing_moves_under_the_cursor() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0");
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    for size in [[1400, 860], [390, 844]] {
+        chromium.look(&tab, size, "light");
+        let load = format!("order({})", json!({ "order": "load", "name": "hover", "plan": HOVER }));
+        chromium.evaluate(&tab, &load);
+        chromium.wait(&tab, "flight.plan === 'hover' && status.phase === 'standby'");
+        chromium.evaluate(&tab, "show('fly')");
+        std::thread::sleep(std::time::Duration::from_secs(1));
+        chromium.evaluate(&tab, SHIFTS);
+        let places = "JSON.stringify([...document.querySelectorAll('footer button, #recover, nav button')] \
+            .map((button) => { const box = button.getBoundingClientRect(); return [button.id, box.x, box.y, box.width]; }))";
+        let before = chromium.evaluate(&tab, places);
+        let order = |chromium: &mut Chromium, what: &str, until: &str| {
+            chromium.evaluate(&tab, &format!("order({{ order: '{what}' }})"));
+            chromium.wait(&tab, until);
+            assert_eq!(chromium.evaluate(&tab, places), before, "{what} at {size:?}");
+        };
+        order(&mut chromium, "start", "status.phase === 'flying' && status.pose.z_m > 0.7");
+        order(&mut chromium, "hold", "status.mission_waits");
+        order(&mut chromium, "resume", "!status.mission_waits");
+        // Messages of every kind, however long.
+        let long = "what nobody has said so far and what takes more than a line to say, ".repeat(3);
+        let say = format!(
+            "take({{ type: 'event', t_s: 1, warning: true, text: '{long}' }}); \
+             take({{ type: 'refused', order: 'hold', reason: '{long}' }}); \
+             take({{ type: 'status', ...status, emergency: true, landing: '{long}', contradicted_by: 'a tag', \
+             battery_percent: 5, controls: '{long}', navdata_age_s: 3 }})"
+        );
+        for _ in 0..20 {
+            chromium.evaluate(&tab, &say);
+            std::thread::sleep(std::time::Duration::from_millis(50));
+        }
+        assert_eq!(chromium.evaluate(&tab, places), before, "{size:?}");
+        order(&mut chromium, "land", "status.phase === 'standby'");
+        let shift = chromium.evaluate(&tab, "cls()").as_f64().unwrap();
+        assert!(shift < 0.02, "{shift}: {}", chromium.evaluate(&tab, "JSON.stringify(shifts)"));
+    }
+    // On a telephone the camera is seen while it is flown by hand, and the buttons leave room for it.
+    chromium.evaluate(&tab, "order({ order: 'start' })");
+    chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.7");
+    chromium.click(&tab, "#byhand", [0.0; 2]);
+    let box_of = |chromium: &mut Chromium, selector: &str| {
+        let edges = format!(
+            "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); [box.top, box.bottom] }}"
+        );
+        let edges = chromium.evaluate(&tab, &edges);
+        [0, 1].map(|edge| edges[edge].as_f64().unwrap())
+    };
+    let [top, bottom] = box_of(&mut chromium, "footer");
+    assert!(bottom - top <= 120.0, "{}", bottom - top);
+    let camera = box_of(&mut chromium, ".camera");
+    assert!(camera[0] >= 0.0 && camera[1] <= top, "{camera:?}, {top}");
+}
+
+/// Keys as in the terminal. A key that is held is one order, and the space bar holds whatever was clicked last.
+#[test]
+fn keys_hold_land_and_explain_themselves() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::flying();
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "status?.phase === 'flying' && status.step === 1");
+    chromium.evaluate(
+        &tab,
+        "window.sent = []; const send = order; order = (it) => { sent.push(it.order); send(it); }; true",
+    );
+    chromium.strike(&tab, "?", "Slash", 0);
+    chromium.wait(&tab, "document.querySelector('#keys').open");
+    // Behind a dialog nothing is ordered.
+    chromium.strike(&tab, "l", "KeyL", 0);
+    chromium.strike(&tab, "Escape", "Escape", 0);
+    chromium.wait(&tab, "!document.querySelector('#keys').open");
+    assert_eq!(chromium.evaluate(&tab, "sent.length"), 0);
+    // The sound's button has the focus, and is not pressed.
+    chromium.click(&tab, "#mute", [0.0; 2]);
+    for _ in 0..5 {
+        chromium.hold_key(&tab, " ", "Space");
+    }
+    chromium.wait(&tab, "status.mission_waits");
+    assert_eq!(chromium.evaluate(&tab, "JSON.stringify(sent)"), r#"["hold"]"#);
+    assert_eq!(text(&mut chromium, &tab, "#mute"), "Sound off");
+    chromium.strike(&tab, "r", "KeyR", 0);
+    chromium.wait(&tab, "!status.mission_waits");
+    // Letters that are typed are letters.
+    chromium.evaluate(&tab, "document.querySelector('#typed').focus()");
+    chromium.strike(&tab, "l", "KeyL", 0);
+    assert_eq!(chromium.evaluate(&tab, "JSON.stringify(sent)"), r#"["hold","resume"]"#);
+    chromium.evaluate(&tab, "document.querySelector('#typed').blur()");
+    chromium.strike(&tab, "l", "KeyL", 0);
+    chromium.wait(&tab, "status.phase !== 'flying'");
+}
+
+/// A program that is stopped and started again at its address is found again, and meanwhile nothing looks as if it was live.
+#[test]
+fn a_page_comes_back_after_the_program_was_started_again() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let mut station = Station::start("0");
+    let address = station.url.trim_start_matches("http://").trim_end_matches('/').to_owned();
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    chromium.evaluate(&tab, "window.stays = true");
+    signal(&station.child, "-TERM");
+    station.child.wait().unwrap();
+    chromium.wait(&tab, "document.querySelector('#alarm').innerText.startsWith('Over')");
+    assert_eq!(chromium.evaluate(&tab, "document.body.classList.contains('stale')"), true);
+    let _again = Station::start(&address);
+    chromium.wait(&tab, "!over && !!status && !!readiness && readiness.ready");
+    chromium.wait(&tab, "document.querySelector('#alarm').hidden");
+    assert_eq!(chromium.evaluate(&tab, "document.body.classList.contains('stale')"), false);
+    assert_eq!(chromium.evaluate(&tab, "window.stays"), true, "it was not loaded again");
+}
+
+/// After a reload the page knows which camera was chosen, and says nothing that is undefined.
+#[test]
+fn a_reload_knows_the_camera_and_the_landing() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0");
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    let plan = "takeoff\nland\n";
+    let load = format!("order({})", json!({ "order": "load", "name": "short", "plan": plan }));
+    chromium.evaluate(&tab, &load);
+    chromium.wait(&tab, "flight.plan === 'short'");
+    chromium.evaluate(&tab, "show('fly'); order({ order: 'start' })");
+    chromium.click(&tab, "#bottom", [0.0; 2]);
+    chromium.wait(&tab, "status.phase === 'flying' && status.flight_time_s > 0");
+    chromium.wait(&tab, "status.phase === 'standby'");
+    chromium.reload(&tab);
+    chromium
+        .wait(&tab, "!!status && document.querySelector('#events').textContent.includes('landed')");
+    chromium.wait(&tab, "document.querySelector('#bottom').ariaPressed === 'true'");
+    let said = chromium.evaluate(&tab, "document.body.textContent.includes('undefined')");
+    assert_eq!(said, false);
+    assert!(text(&mut chromium, &tab, "#time").starts_with("0:0"));
+}
