@@ -20,6 +20,7 @@ mod lateness;
 mod mavlink;
 mod operator;
 mod parting;
+mod planner;
 mod plans;
 mod polygon;
 mod ports;

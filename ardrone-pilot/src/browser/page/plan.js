@@ -561,6 +561,7 @@ land
     simulated: () => flown,
     text: () => text.value,
     name: fileName,
+    undo: () => travel(-1),
     // Places that the map must show.
     places: () => [...targets().map(({ x, y }) => [x, y]), ...(flown && flown.track ? flown.track.map(([, x, y]) => [x, y]) : [])],
     targets,
