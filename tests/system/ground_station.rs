@@ -244,7 +244,59 @@ fn the_flights_of_a_run_are_told_apart() {
     assert!(from + value(&short, "length_s") < until, "{found}");
     assert!(value(&short, "length_s") + 2.0 < value(&long, "length_s"), "{found}");
     assert!(value(&short, "farthest_m") < 0.4 && value(&long, "farthest_m") > 0.8, "{found}");
+    looked_back_at(&mut chromium, &tab);
     station.end();
+}
+
+/// The list of two flights of one run, a playback, and the plots.
+fn looked_back_at(chromium: &mut Chromium, tab: &Tab) {
+    chromium.click(tab, "[data-show=flights]", [0.0; 2]);
+    let listed = "[...document.querySelectorAll('#recordings tbody tr')].filter((row) => !row.hidden) \
+        .map((row) => row.children[2].textContent).join()";
+    chromium.wait(tab, &format!("{listed} === 'long.txt,short.txt'"));
+    chromium.type_into(tab, "#ofplan", "sho");
+    chromium.wait(tab, &format!("{listed} === 'short.txt'"));
+    chromium.type_into(tab, "#ofplan", " ");
+    chromium.choose(tab, "#ofend", "ill");
+    chromium.evaluate(tab, "document.querySelector('#ofend').oninput()");
+    chromium.wait(tab, &format!("{listed} === ''"));
+    chromium.choose(tab, "#ofend", "well");
+    chromium.evaluate(tab, "document.querySelector('#ofend').oninput()");
+    chromium.evaluate(
+        tab,
+        "document.querySelector('#ofdate').valueAsNumber = Date.now() + 2 * 86400000",
+    );
+    chromium.evaluate(tab, "document.querySelector('#ofdate').oninput()");
+    chromium.wait(tab, &format!("{listed} === ''"));
+    chromium.evaluate(tab, "document.querySelector('#ofdate').value = ''");
+    chromium.evaluate(tab, "document.querySelector('#ofdate').oninput()");
+    chromium.wait(tab, &format!("{listed} === 'long.txt,short.txt'"));
+    // Played back eight times as fast, beside the live drone, until something flies.
+    chromium.click(tab, "#recordings tbody tr:first-child .actions button:nth-child(2)", [0.0; 2]);
+    chromium.wait(tab, "view === 'fly' && document.querySelector('#ghost').style.display === ''");
+    chromium.choose(tab, "#pace", "8");
+    chromium.wait(tab, "Number(document.querySelector('#playat').value) > 3");
+    chromium.wait(tab, "document.querySelector('#ghostway').points.length > 20");
+    chromium.wait(tab, "document.querySelector('#play').textContent === 'Play'");
+    let played = chromium.evaluate(tab, "document.querySelector('#playtime').textContent");
+    assert!(played.as_str().unwrap().starts_with("Played back"), "{played}");
+    assert_eq!(chromium.evaluate(tab, "status.phase"), "standby");
+    chromium.evaluate(tab, "order({ order: 'start' })");
+    chromium.wait(tab, "document.querySelector('#playback').hidden && status.phase === 'flying'");
+    // Plots with a time axis, whole percents, and nothing below nothing; they stand while they are looked at.
+    chromium.click(tab, "[data-show=plots]", [0.0; 2]);
+    let caption = |name| {
+        format!(
+            "[...document.querySelectorAll('figcaption')].find((it) => it.textContent.startsWith('{name}')).textContent"
+        )
+    };
+    chromium.wait(tab, &format!("/^battery \\(%\\) \\d+ $/.test({})", caption("battery")));
+    chromium.click(tab, "#pauseplots", [0.0; 2]);
+    let stands = chromium.evaluate(tab, &caption("position"));
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(chromium.evaluate(tab, &caption("position")), stands);
+    chromium.click(tab, "#pauseplots", [0.0; 2]);
+    chromium.wait(tab, &format!("{} !== {stands}", caption("position")));
 }
 
 /// The address by which other machines would reach this one.
