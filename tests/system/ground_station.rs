@@ -538,7 +538,7 @@ fn the_page_and_the_report_can_be_used_by_everybody() {
     chromium.wait(&tab, "document.querySelectorAll('#problems li').length > 0");
     for scheme in ["light", "dark"] {
         chromium.look(&tab, [1400, 860], scheme);
-        for name in ["fly", "plan", "plots", "flights"] {
+        for name in ["fly", "plan", "plots", "flights", "settings"] {
             chromium.click(&tab, &format!("[data-show={name}]"), [0.0; 2]);
             chromium.wait(&tab, &format!("view === '{name}'"));
             if name == "flights" {
@@ -572,7 +572,7 @@ fn the_page_fits_telephones_and_large_screens() {
     for (width, height) in [(360, 740), (820, 1180), (1366, 768), (1920, 1080)] {
         for scheme in ["light", "dark"] {
             chromium.look(&tab, [width, height], scheme);
-            for name in ["fly", "plan", "plots", "flights"] {
+            for name in ["fly", "plan", "plots", "flights", "settings"] {
                 chromium.click(&tab, &format!("[data-show={name}]"), [0.0; 2]);
                 chromium.wait(&tab, &format!("view === '{name}'"));
                 let wide = number(&mut chromium, &tab, "document.documentElement.scrollWidth");

@@ -17,9 +17,12 @@ struct Station {
 impl Station {
     fn start() -> Self {
         let folder = tempfile::tempdir().unwrap();
+        let settings = folder.path().join("pilot.toml");
+        std::fs::write(&settings, SETTINGS).unwrap();
         let mut pilot = program("ardrone-pilot");
         pilot.args(["--mock", "--plain", "--ui", "0", "--plans"]).arg(folder.path());
         pilot.arg("--log").arg(folder.path().join("flights.mcap"));
+        pilot.arg("--config").arg(settings);
         let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
         Self { child, url, folder }
     }
@@ -47,6 +50,7 @@ fn number(chromium: &mut Chromium, tab: &Tab, expression: &str) -> f64 {
 }
 
 const CTRL: u32 = 2;
+const SETTINGS: &str = "# Our hall.\n[fence]\nradius_m = 9.5 # to the wall\n";
 
 /// One history for what is typed, clicked, dragged and opened; nothing of another plan is ever mixed in.
 #[test]
@@ -268,4 +272,69 @@ fn pictures_of_a_long_flight() {
     let solid = chromium.settle(&tab, rate);
     println!("{flat} pictures a second on the map, {solid} in three dimensions");
     assert!(flat.as_f64() > Some(30.0) && solid.as_f64() > Some(30.0), "{flat}, {solid}");
+}
+
+/// Settings with what they are for; a change is checked, written beside what the file says already, and in effect later.
+#[test]
+fn settings_are_seen_and_changed() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start();
+    let tab = planner(&mut chromium, &station);
+    chromium.click(&tab, "[data-show=settings]", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelectorAll('#settings label').length > 40");
+    let field = |name: &str| {
+        format!(
+            "[...document.querySelectorAll('#settings label')].find((it) => it.querySelector('b').textContent === '{name}')"
+        )
+    };
+    let radius = chromium.evaluate(&tab, &format!("{}.textContent", field("radius_m")));
+    let radius = radius.as_str().unwrap();
+    assert!(radius.contains("0.5 to 200.") && radius.contains("Default 10"), "{radius}");
+    let set = |chromium: &mut Chromium, name: &str, value: &str| {
+        let set = format!(
+            "{{ const input = {}.querySelector('input, select'); input.value = '{value}'; input.oninput(); }}",
+            field(name)
+        );
+        chromium.evaluate(&tab, &set);
+        chromium.click(&tab, "#savesettings", [0.0; 2]);
+    };
+    let file = || std::fs::read_to_string(station.folder.path().join("pilot.toml")).unwrap();
+    set(&mut chromium, "radius_m", "0.1");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#settingsnote').textContent.includes('it must lie in 0.5 to 200')",
+    );
+    assert_eq!(file(), SETTINGS);
+    set(&mut chromium, "radius_m", "4");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#settingsnote').textContent.startsWith('Saved. 1 of them')",
+    );
+    assert_eq!(file(), SETTINGS.replace("9.5", "4"));
+    set(&mut chromium, "gps", "true");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#settingsnote').textContent.startsWith('Saved. 2 of them')",
+    );
+    assert_eq!(file(), format!("{}\n[drone]\ngps = true\n", SETTINGS.replace("9.5", "4")));
+    // The fence of this run is what it was.
+    assert!(
+        number(&mut chromium, &tab, "Math.max(...flight.fence.outline_m.map(([x]) => x))") > 9.0
+    );
+    chromium.type_into(&tab, "#ofsettings", "ultrasound");
+    chromium
+        .wait(&tab, "[...document.querySelectorAll('#settings label')].some((it) => it.hidden)");
+    // A gamepad: which axis moves what is kept.
+    let pad = "navigator.getGamepads = () => [{ id: 'pad', axes: [0.1, 0, 0, -0.5, 0, 0], \
+        buttons: [...Array(8)].map(() => ({ pressed: true })) }]; true";
+    chromium.evaluate(&tab, pad);
+    chromium
+        .wait(&tab, "document.querySelector('#padaxes label:nth-child(4) meter').value === -0.5");
+    chromium
+        .wait(&tab, "document.querySelectorAll('#padaxes label:nth-child(1) option').length === 6");
+    chromium.evaluate(&tab, "{ const choice = document.querySelector('#padaxes label:nth-child(4) select'); choice.value = 5; choice.oninput(); }");
+    chromium.wait(&tab, "document.querySelector('#padaxes label:nth-child(4) meter').value === 0");
+    chromium.reload(&tab);
+    chromium
+        .wait(&tab, "JSON.parse(localStorage.getItem('ardrone-pilot gamepad')).back.axis === 5");
 }

@@ -8,7 +8,6 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
-use axum::Router;
 use axum::body::{Body, to_bytes};
 use axum::extract::{Path, State};
 use axum::http::StatusCode;
@@ -18,6 +17,7 @@ use axum::http::header::{
 };
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
+use axum::{Extension, Router};
 use bytes::BytesMut;
 use futures_util::stream;
 use serde_json::{Value, json};
@@ -27,6 +27,8 @@ use tokio::time::timeout;
 
 use super::folder::{Entry, Folder, FolderError};
 use super::planning::Planning;
+use super::server::Local;
+use super::settings_file::{ChangeError, SettingsFile};
 use crate::flights::{RecordedFlight, flights};
 use crate::recording::{Log, LogError, pictures};
 use crate::report::{self, ReportError};
@@ -55,6 +57,7 @@ pub(super) struct Files {
     flights: Folder,
     /// The recording that is being written.
     current: Option<PathBuf>,
+    settings: SettingsFile,
     /// Checks of plans, and lists.
     quick: Semaphore,
     /// Simulations and reports.
@@ -80,6 +83,10 @@ enum Failure {
     NoFlight(String, usize),
     #[error("{0} is being recorded")]
     Current(String),
+    #[error(transparent)]
+    Settings(#[from] ChangeError),
+    #[error("settings are changed on the machine that flies")]
+    Elsewhere,
     #[error("this cannot be done; the terminal says why")]
     Panicked,
 }
@@ -92,8 +99,12 @@ impl IntoResponse for Failure {
             Self::Folder(FolderError::Exists(_)) => StatusCode::PRECONDITION_FAILED,
             Self::Folder(FolderError::TooLarge(..)) => StatusCode::PAYLOAD_TOO_LARGE,
             Self::Slow => StatusCode::REQUEST_TIMEOUT,
-            Self::Log(..) | Self::Report(..) => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Current(_) => StatusCode::CONFLICT,
+            Self::Elsewhere => StatusCode::FORBIDDEN,
+            Self::Settings(ChangeError::File(..)) => StatusCode::INTERNAL_SERVER_ERROR,
+            Self::Log(..) | Self::Report(..) | Self::Settings(_) => {
+                StatusCode::UNPROCESSABLE_ENTITY
+            }
             Self::Folder(FolderError::System(..)) | Self::Panicked => {
                 StatusCode::INTERNAL_SERVER_ERROR
             }
@@ -120,9 +131,11 @@ impl Files {
         plans: PathBuf,
         flights: PathBuf,
         current: Option<PathBuf>,
+        settings: SettingsFile,
     ) -> Self {
         Self {
             planning,
+            settings,
             plans: Folder::new(plans, ".txt"),
             flights: Folder::new(flights, ".mcap"),
             current,
@@ -141,6 +154,7 @@ impl Files {
         Router::new()
             .route("/plan/check", post(check))
             .route("/plan/simulate", post(simulate))
+            .route("/settings", get(show_settings).put(change_settings))
             .route("/plans", get(list_plans))
             .route("/plans/{name}", get(read_plan).put(save_plan))
             .route("/flights", get(list_flights))
@@ -245,6 +259,23 @@ async fn check(State(files): Shared, body: Body) -> Result<Json, Failure> {
 async fn simulate(State(files): Shared, body: Body) -> Result<Json, Failure> {
     let text = text(body).await?;
     files.slowly(move |files| files.planning.simulate(&text)).await.map(Json)
+}
+
+async fn show_settings(State(files): Shared) -> Result<Json, Failure> {
+    Ok(Json(files.quickly(|files| files.settings.json()).await??))
+}
+
+/// They decide where later flights may go, which nobody far away does.
+async fn change_settings(
+    State(files): Shared,
+    Extension(Local(is_local)): Extension<Local>,
+    body: Body,
+) -> Result<(), Failure> {
+    if !is_local {
+        return Err(Failure::Elsewhere);
+    }
+    let text = text(body).await?;
+    Ok(files.quickly(move |files| files.settings.change(&text)).await??)
 }
 
 async fn list_plans(State(files): Shared) -> Result<Json, Failure> {

@@ -15,6 +15,7 @@ mod pictures;
 mod planning;
 mod requests;
 mod server;
+mod settings_file;
 mod snapshot;
 
 use std::net::{SocketAddr, TcpListener};
@@ -26,6 +27,7 @@ use self::access::Access;
 use self::files::Files;
 pub use self::planning::Planning;
 use self::server::Server;
+pub use self::settings_file::SettingsFile;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
 use crate::runtime::Runtime;
@@ -60,6 +62,8 @@ pub struct PageConfig {
     pub flights: PathBuf,
     /// The recording of this run, which cannot be deleted.
     pub recording: Option<PathBuf>,
+    /// The settings, which apply from the next start on.
+    pub settings: SettingsFile,
 }
 
 /// A bound address, reserved before the flight begins.
@@ -96,9 +100,9 @@ impl Listener {
         controls: Controls,
         video: Option<VideoFeed>,
     ) -> Browser {
-        let PageConfig { drone, planning, plans, flights, recording } = page;
+        let PageConfig { drone, planning, plans, flights, recording, settings } = page;
         let snapshot = Snapshot::new(plan, &planning.config, &drone);
-        let files = Files::new(planning, plans, flights, recording);
+        let files = Files::new(planning, plans, flights, recording, settings);
         let server =
             Server::start(runtime, self.listener, self.access, snapshot, files, controls, video);
         Browser { server }

@@ -84,7 +84,7 @@ macro_rules! script {
 }
 
 /// The page itself comes first.
-const ASSETS: [Asset; 12] = [
+const ASSETS: [Asset; 13] = [
     Asset { path: "/", kind: "text/html; charset=utf-8", text: include_str!("page/index.html") },
     Asset {
         path: "/page.css",
@@ -101,6 +101,7 @@ const ASSETS: [Asset; 12] = [
     script!("plan.js"),
     script!("flights.js"),
     script!("plots.js"),
+    script!("settings.js"),
 ];
 /// No content from elsewhere, and no framing: an invisible button must not be clicked (clickjacking).
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
@@ -176,7 +177,7 @@ struct Shared {
 
 /// Whether a client is on this machine.
 #[derive(Debug, Clone, Copy)]
-struct Local(bool);
+pub(super) struct Local(pub(super) bool);
 
 /// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
 /// two.

@@ -21,7 +21,7 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, read, read_settings, terminal};
-use crate::browser::{Browser, Listener, PageConfig, Planning};
+use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile};
 use crate::flight::{Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
@@ -34,6 +34,8 @@ use crate::video::Video;
 
 /// Folder of the recordings unless another one is given.
 const FLIGHTS: &str = "flights";
+/// The settings that the page writes where none were given.
+const SETTINGS: &str = "pilot.toml";
 /// Messages that may wait to be printed.
 const UNSHOWN: usize = 256;
 
@@ -81,7 +83,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let video = watch_video(&runtime, arguments, mock.as_ref(), recording.as_ref());
     let flight = Flight::start(&runtime, plan.clone(), &config, &drone, recorder)?;
     let controls = flight.controls();
-    let page = page_config(arguments, config.clone(), surveyed, recording.as_ref());
+    let page = page_config(arguments, &settings, config.clone(), recording.as_ref());
     let open = |listener: Listener| {
         let feed = video.as_ref().map(Video::feed);
         listener.open(&runtime, plan.as_ref(), page, controls.clone(), feed)
@@ -360,16 +362,22 @@ fn record(
 /// What the page offers besides the flight.
 fn page_config(
     arguments: &Fly,
+    settings: &Settings,
     config: VehicleConfig,
-    surveyed: Option<Vec<SurveyedTag>>,
     recording: Option<&Recording>,
 ) -> PageConfig {
+    let surveyed = settings.surveyed_tags();
     PageConfig {
         drone: drone_name(arguments).to_owned(),
         planning: Planning { config, surveyed },
         plans: arguments.plans.clone(),
         flights: log_folder(arguments),
         recording: recording.map(|recording| recording.path().to_owned()),
+        settings: SettingsFile {
+            path: arguments.config.clone().unwrap_or_else(|| PathBuf::from(SETTINGS)),
+            is_used: arguments.config.is_some(),
+            in_effect: settings.clone(),
+        },
     }
 }
 

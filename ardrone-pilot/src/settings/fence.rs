@@ -5,7 +5,12 @@ use autopilot::plan::{Border, FlightLimits, Shape};
 use autopilot::vehicle::VehicleConfig;
 use serde::{Deserialize, Serialize};
 
-use super::section::{Comments, Section, outside};
+use super::section::{Declared, Section, Value, outside};
+
+/// Ranges of the values.
+const FLOOR_M: [f64; 2] = [0.1, 3.0];
+const CEILING_M: [f64; 2] = [0.5, 100.0];
+const RADIUS_M: [f64; 2] = [0.5, 200.0];
 
 /// Where the drone may fly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,18 +40,24 @@ struct Written {
 struct Corners(Border);
 
 impl Fence {
-    /// Name, and each value's comments.
-    pub(super) const COMMENTS: Comments = (
+    /// Name, and what is known of each value.
+    pub(super) const DECLARED: Declared = (
         "fence",
         &[
-            ("floor_m", &[" Lowest and highest target. Metres above the floor."]),
-            (
-                "radius_m",
-                &[
+            Value {
+                name: "floor_m",
+                comments: &[" Lowest and highest target. Metres above the floor."],
+                range: Some(FLOOR_M),
+            },
+            Value { name: "ceiling_m", comments: &[], range: Some(CEILING_M) },
+            Value {
+                name: "radius_m",
+                comments: &[
                     " Largest horizontal distance of a target from the start. Metres. In its place `polygon_m = [[-2, -1], [2, -1], [0, 4]]`",
                     " gives 3 to 32 corners of a polygon around the start: right and forward of it, in their order along the border.",
                 ],
-            ),
+                range: Some(RADIUS_M),
+            },
         ],
     );
 
@@ -128,11 +139,12 @@ impl Section<VehicleConfig> for Fence {
 
     fn out_of_range(&self) -> Vec<String> {
         let numbers = [
-            ("fence.floor_m", Some(self.floor_m), 0.1..=3.0),
-            ("fence.ceiling_m", Some(self.ceiling_m), 0.5..=100.0),
-            ("fence.radius_m", self.radius_m(), 0.5..=200.0),
+            ("fence.floor_m", Some(self.floor_m), FLOOR_M),
+            ("fence.ceiling_m", Some(self.ceiling_m), CEILING_M),
+            ("fence.radius_m", self.radius_m(), RADIUS_M),
         ];
-        let wrong = |(name, value, range)| outside(name, value?, &range);
+        let wrong =
+            |(name, value, [from, to]): (_, _, [f64; 2])| outside(name, value?, &(from..=to));
         numbers.into_iter().filter_map(wrong).collect()
     }
 }

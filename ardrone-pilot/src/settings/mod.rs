@@ -3,6 +3,7 @@
 //! [`Settings::sample`] documents every setting. Missing settings keep their defaults; a file with an invalid
 //! one is refused as a whole, with all reasons.
 
+mod editor;
 mod fence;
 mod section;
 mod sections;
@@ -12,8 +13,9 @@ use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use serde::{Deserialize, Serialize};
 
+pub use self::editor::{Described, with_changes};
 use self::fence::Fence;
-use self::section::{Comments, Section};
+use self::section::{Declared, Section};
 use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Station, Vehicle, Video};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
@@ -62,18 +64,18 @@ const HEADER: &str = "\
 
 ";
 
-/// The sections' comments.
-const COMMENTS: [Comments; 10] = [
-    Vehicle::COMMENTS,
-    Fence::COMMENTS,
-    Drone::COMMENTS,
-    Video::COMMENTS,
-    Station::COMMENTS,
-    Delays::COMMENTS,
-    Airframe::COMMENTS,
-    Estimator::COMMENTS,
-    Tags::COMMENTS,
-    Controller::COMMENTS,
+/// The sections.
+const DECLARED: [Declared; 10] = [
+    Vehicle::DECLARED,
+    Fence::DECLARED,
+    Drone::DECLARED,
+    Video::DECLARED,
+    Station::DECLARED,
+    Delays::DECLARED,
+    Airframe::DECLARED,
+    Estimator::DECLARED,
+    Tags::DECLARED,
+    Controller::DECLARED,
 ];
 
 impl Settings {
@@ -100,14 +102,14 @@ impl Settings {
     /// As [`Settings::to_toml`].
     pub fn sample() -> Result<String, toml::ser::Error> {
         let mut text = HEADER.to_owned();
-        let mut values = Comments::default().1;
+        let mut values = Declared::default().1;
         for line in Self::default().to_toml()?.lines() {
             if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-                let section = COMMENTS.into_iter().find(|(section, _)| *section == name);
+                let section = DECLARED.into_iter().find(|(section, _)| *section == name);
                 values = section.map(|(_, values)| values).unwrap_or_default();
             } else if let Some((name, _)) = line.split_once(" = ") {
-                let value = values.iter().find(|(value, _)| *value == name);
-                for comment in value.map(|(_, comments)| *comments).unwrap_or_default() {
+                let value = values.iter().find(|value| value.name == name);
+                for comment in value.map(|value| value.comments).unwrap_or_default() {
                     text.extend(["#", comment, "\n"]);
                 }
             }

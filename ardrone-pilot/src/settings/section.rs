@@ -46,9 +46,14 @@ macro_rules! section {
         }
 
         impl $section {
-            /// Name, and each value's comments.
-            pub(super) const COMMENTS: $crate::settings::section::Comments =
-                ($name, &[$((stringify!($value), &[$($comment),*])),+]);
+            /// Name, and what is known of each value.
+            pub(super) const DECLARED: $crate::settings::section::Declared = ($name, &[
+                $($crate::settings::section::Value {
+                    name: stringify!($value),
+                    comments: &[$($comment),*],
+                    range: section!(@range $($range)?),
+                }),+
+            ]);
         }
 
         impl $crate::settings::section::Section<$config> for $section {
@@ -68,6 +73,8 @@ macro_rules! section {
             }
         }
     };
+    (@range) => { None };
+    (@range $range:expr) => { Some([*$range.start(), *$range.end()]) };
     (@get $config:ident, default $value:expr) => { $value };
     (@get $config:ident, $($place:ident).+) => {
         $crate::settings::section::Setting::of(&$config.$($place).+)
@@ -88,8 +95,18 @@ pub(super) trait Section<C> {
     fn out_of_range(&self) -> Vec<String>;
 }
 
-/// A section's name, and the comments of each of its values.
-pub(super) type Comments = (&'static str, &'static [(&'static str, &'static [&'static str])]);
+/// What is known of a value.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value {
+    pub(super) name: &'static str,
+    /// Lines of its documentation; none if it is documented with the value before it.
+    pub(super) comments: &'static [&'static str],
+    /// Least and largest number, if it has a range.
+    pub(super) range: Option<[f64; 2]>,
+}
+
+/// A section's name, and its values.
+pub(super) type Declared = (&'static str, &'static [Value]);
 
 /// A value as it is written in the file; `T` is its type in the configuration.
 pub(super) trait Setting<T> {

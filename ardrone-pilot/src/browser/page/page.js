@@ -131,7 +131,7 @@ function begin(message) {
   if (!view) show(message.steps.length ? "fly" : "plan");
 }
 
-// Shows a part of the page: fly, plan, plots or flights.
+// Shows a part of the page: fly, plan, plots, flights or settings.
 function show(name) {
   if (name === view) return;
   view = name;
@@ -140,6 +140,7 @@ function show(name) {
   wanted = null;
   map.reset();
   if (name === "flights") flights.list();
+  if (name === "settings") settings.list();
 }
 
 function finish(message) {
@@ -214,8 +215,10 @@ function draw() {
   drawButtons();
   document.body.classList.toggle("stale", Boolean(over) || !socket || socket.readyState !== WebSocket.OPEN);
   if (!flight) return;
-  if (view !== "flights") map.draw();
-  if (view !== "flights") heights.draw();
+  if (!["flights", "settings"].includes(view)) {
+    map.draw();
+    heights.draw();
+  }
   if (!status) return;
   drawFacts();
   drawDoing();

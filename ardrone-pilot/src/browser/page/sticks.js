@@ -46,22 +46,96 @@
   // Fine near the centre.
   const curved = (value) => value * Math.abs(value);
 
-  // The sticks of the first gamepad whose shoulder button is held: without it nothing is steered.
-  function gamepad() {
-    for (const pad of navigator.getGamepads?.() ?? []) {
-      if (!pad || pad.mapping !== "standard" || !(pad.buttons[4].pressed || pad.buttons[5].pressed)) continue;
-      return pad.axes.slice(0, 4).map((axis) => (Math.abs(axis) < DEAD ? 0 : curved(axis)));
-    }
-    return [0, 0, 0, 0];
+  // ---- Gamepad.
+
+  const KEPT = "ardrone-pilot gamepad";
+  // What each movement is steered with: the axis of the gamepad, its sign, and its value at rest.
+  const FIRST = {
+    turn: { axis: 0, sign: 1, rest: 0 }, climb: { axis: 1, sign: -1, rest: 0 },
+    right: { axis: 2, sign: 1, rest: 0 }, back: { axis: 3, sign: 1, rest: 0 },
+  };
+  let axes = structuredClone(FIRST);
+  try {
+    axes = { ...axes, ...JSON.parse(localStorage.getItem(KEPT)) };
+  } catch {
+    // What was kept is not ours.
   }
 
+  function keep() {
+    try {
+      localStorage.setItem(KEPT, JSON.stringify(axes));
+    } catch {
+      // It is forgotten with the page.
+    }
+  }
+
+  const connected = () => [...(navigator.getGamepads?.() ?? [])].filter(Boolean);
+  // From −1 to 1, without the tremor of a stick that is let go.
+  function deflection(pad, { axis, sign, rest }) {
+    const value = sign * ((pad.axes[axis] ?? rest) - rest);
+    return Math.abs(value) < DEAD ? 0 : Math.max(-1, Math.min(1, value));
+  }
+
+  // The first gamepad whose shoulder button is held: without it nothing is steered.
+  function gamepad() {
+    const pad = connected().find(({ buttons }) => buttons[4]?.pressed || buttons[5]?.pressed);
+    if (!pad) return { turn: 0, climb: 0, right: 0, back: 0 };
+    return Object.fromEntries(Object.entries(axes).map(([name, axis]) => [name, curved(deflection(pad, axis))]));
+  }
+
+  const rows = Object.keys(FIRST).map((name) => {
+    const row = document.createElement("label");
+    const [choice, turned, shown] = ["select", "input", "meter"].map((kind) => document.createElement(kind));
+    Object.assign(turned, { type: "checkbox", title: "the other way round" });
+    turned.ariaLabel = `${name}: the other way round`;
+    Object.assign(shown, { min: -1, max: 1, value: 0 });
+    shown.ariaLabel = name;
+    choice.oninput = () => {
+      axes[name].axis = Number(choice.value);
+      keep();
+    };
+    turned.oninput = () => {
+      axes[name].sign = turned.checked ? -FIRST[name].sign : FIRST[name].sign;
+      keep();
+    };
+    row.append(name, choice, turned, shown);
+    document.getElementById("padaxes").append(row);
+    return { name, choice, turned, shown };
+  });
+
+  function drawPad() {
+    const [pad] = connected();
+    document.getElementById("padcentre").disabled = !pad;
+    document.getElementById("padnote").textContent = pad
+      ? `${pad.id}: which axis moves what, whether the other way round, and how it stands`
+      : "No gamepad is connected, or nothing was pressed on it yet.";
+    for (const { name, choice, turned, shown } of rows) {
+      const count = Math.max(4, pad?.axes.length ?? 0);
+      if (choice.childElementCount !== count) {
+        choice.replaceChildren(...Array.from({ length: count }, (_, axis) => new Option(`axis ${axis + 1}`, axis)));
+      }
+      choice.value = axes[name].axis;
+      turned.checked = axes[name].sign !== FIRST[name].sign;
+      shown.value = pad ? deflection(pad, axes[name]) : 0;
+    }
+  }
+  document.getElementById("padcentre").onclick = () => {
+    const [pad] = connected();
+    for (const axis of Object.values(axes)) axis.rest = pad?.axes[axis.axis] ?? 0;
+    keep();
+  };
+  document.getElementById("padreset").onclick = () => {
+    axes = structuredClone(FIRST);
+    keep();
+  };
+
   function sticks() {
-    const [leftX, leftY, rightX, rightY] = gamepad();
+    const { turn, climb, right, back } = gamepad();
     const demand = {
-      roll: rightX + curved(pads.right[0]),
-      pitch: rightY + curved(pads.right[1]),
-      gaz: -leftY - curved(pads.left[1]),
-      yaw: leftX + curved(pads.left[0]),
+      roll: right + curved(pads.right[0]),
+      pitch: back + curved(pads.right[1]),
+      gaz: climb - curved(pads.left[1]),
+      yaw: turn + curved(pads.left[0]),
     };
     for (const key of held) {
       const [axis, sign] = KEYS[key];
@@ -75,6 +149,7 @@
     const flying = !over && status && status.phase === "flying" && !isWatching();
     button.disabled = !flying;
     if (!flying && on) set(false);
+    if (view === "settings") drawPad();
     const demand = on ? sticks() : { roll: 0, pitch: 0, gaz: 0, yaw: 0 };
     // As they are pressed, by whatever presses them.
     if (on) {
