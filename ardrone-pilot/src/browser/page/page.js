@@ -257,7 +257,7 @@ function drawButtons() {
   const emergency = live && status && status.emergency;
   $("recover").disabled = !emergency;
   // The bright one is the one that helps.
-  const grounded = !live || !status || ["connecting", "configuring", "standby"].includes(status.phase);
+  const grounded = !live || !status || !["flying", "landing"].includes(status.phase);
   $("land").classList.toggle("prime", !grounded && !emergency);
   $("start").classList.toggle("prime", !$("start").disabled && !emergency);
   $("recover").classList.toggle("prime", Boolean(emergency));
