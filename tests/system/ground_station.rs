@@ -118,10 +118,13 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     // What is not saved is not given up unasked.
     chromium.choose(&tab, "#plans", "-");
     chromium.click(&tab, "#ask button[value=no]", [0.0; 2]);
+    chromium.wait(&tab, "!document.querySelector('#ask').open");
     chromium.wait(&tab, "plan.text().endsWith('landOnTag\\n')");
     chromium.choose(&tab, "#plans", "-");
     chromium.click(&tab, "#askyes", [0.0; 2]);
     chromium.wait(&tab, "plan.text() === 'takeoff\\nland\\n'");
+    // A click on the mark of the target before would be no click on the map.
+    chromium.wait(&tab, "!document.querySelector('#drafts g')");
     // Two clicks on the map are two targets before the landing, and one of them is dragged.
     for (count, off) in [(1, [0.0, -90.0]), (2, [90.0, -90.0])] {
         chromium.click(&tab, "#map", off);
@@ -292,6 +295,8 @@ fn looked_back_at(chromium: &mut Chromium, tab: &Tab) {
     };
     chromium.wait(tab, &format!("/^battery \\(%\\) \\d+ $/.test({})", caption("battery")));
     chromium.click(tab, "#pauseplots", [0.0; 2]);
+    // Until it is drawn.
+    std::thread::sleep(Duration::from_millis(500));
     let stands = chromium.evaluate(tab, &caption("position"));
     std::thread::sleep(Duration::from_secs(1));
     assert_eq!(chromium.evaluate(tab, &caption("position")), stands);

@@ -12,6 +12,10 @@ pub(super) struct Access {
     token: Option<String>,
 }
 
+/// Whether a client is on this machine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Local(pub(super) bool);
+
 /// Why a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Refusal {

@@ -25,9 +25,9 @@ use tokio::io::AsyncReadExt as _;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
+use super::access::Local;
 use super::folder::{Entry, Folder, FolderError};
 use super::planning::Planning;
-use super::server::Local;
 use super::settings_file::{ChangeError, SettingsFile};
 use crate::flights::{RecordedFlight, flights};
 use crate::recording::{Log, LogError, pictures};

@@ -30,7 +30,7 @@ use tokio::task::{JoinSet, block_in_place};
 use tokio::time::{Instant, sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 
-use super::access::{Access, Claims, Refusal};
+use super::access::{Access, Claims, Local, Refusal};
 use super::files::{Files, PLAN_BYTES};
 use super::pictures;
 use super::requests::Requests;
@@ -174,10 +174,6 @@ struct Shared {
     /// Places for those who see the video.
     watchers: Arc<Semaphore>,
 }
-
-/// Whether a client is on this machine.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Local(pub(super) bool);
 
 /// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
 /// two.

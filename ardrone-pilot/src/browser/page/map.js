@@ -248,7 +248,11 @@ const map = (() => {
     zoom(Math.exp(event.deltaY * 0.0015), place(event));
   }, { passive: false });
   $("map").addEventListener("pointerdown", (event) => {
-    if (!fingers.size) moved = false;
+    // The first finger begins anew: the end of a press may have been elsewhere.
+    if (event.isPrimary) {
+      fingers.clear();
+      moved = false;
+    }
     // A target is dragged by itself.
     if (event.target.closest("#drafts .free")) return;
     fingers.set(event.pointerId, [event.clientX, event.clientY]);

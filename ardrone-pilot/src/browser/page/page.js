@@ -210,7 +210,6 @@ function draw() {
   // What is played is no longer looked at once something flies.
   flights.advance((now - drawnAt) / 1000, status && ["flying", "landing"].includes(status.phase));
   drawnAt = now;
-  dangers.draw();
   drawAdvice();
   drawButtons();
   document.body.classList.toggle("stale", Boolean(over) || !socket || socket.readyState !== WebSocket.OPEN);
@@ -401,14 +400,24 @@ $("typing").onsubmit = (event) => {
 };
 $("help").onclick = () => $("keys").showModal();
 
+let answered = null; // what waits for the answer to a question
+
 // Asks before something is lost. It resolves to whether to go on.
 function confirmed(question, does) {
+  // Only one question at a time.
+  answered?.(false);
   const dialog = $("ask");
   $("asked").textContent = question;
   $("askyes").textContent = does;
   dialog.returnValue = "no";
   dialog.showModal();
-  return new Promise((resolve) => (dialog.onclose = () => resolve(dialog.returnValue === "yes")));
+  return new Promise((resolve) => {
+    answered = resolve;
+    dialog.onclose = () => {
+      // The end of the question before may be told late.
+      if (!dialog.open) resolve(dialog.returnValue === "yes");
+    };
+  });
 }
 
 // Keys as in the terminal. One that is held is one order, and letters that are typed are letters.
@@ -433,6 +442,8 @@ document.addEventListener("keyup", (event) => {
   if (event.key === " " && event.target.tagName === "BUTTON" && status && ["flying", "landing"].includes(status.phase)) event.preventDefault();
 });
 
+// A page in the background is not drawn, and must be heard all the same.
+setInterval(dangers.draw, 100);
 addEventListener("load", () => {
   connect();
   draw();
