@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{CrossCheck, FlightEvent, FlightReport, ManualControl, Status, Telemetry};
+use autopilot::vehicle::{
+    CrossCheck, FlightEvent, FlightReport, LandingReason, ManualControl, Status, Telemetry,
+};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
@@ -124,6 +126,7 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "t_s": at.as_secs_f64(),
         "phase": phase.name(),
         "landing": status.landing.map(|reason| reason.to_string()),
+        "landing_ordered": status.landing == Some(LandingReason::Operator),
         "emergency": status.emergency,
         "flight_time_s": status.flight_time.map(|time| time.as_secs_f64()),
         "camera": status.camera,

@@ -273,6 +273,14 @@ impl Chromium {
         self.call(Some(tab), "Input.dispatchMouseEvent", &event);
     }
 
+    /// Saves a screenshot to the folder `PAGE_PICTURES`, if it is given.
+    pub(crate) fn picture(&mut self, tab: &Tab, name: &str) {
+        if let Some(folder) = std::env::var_os("PAGE_PICTURES") {
+            std::thread::sleep(Duration::from_millis(300));
+            self.screenshot(tab, &Path::new(&folder).join(format!("{name}.png")));
+        }
+    }
+
     /// Saves a screenshot.
     pub(crate) fn screenshot(&mut self, tab: &Tab, file: &Path) {
         let picture = self.call(Some(tab), "Page.captureScreenshot", &json!({ "format": "png" }));

@@ -281,6 +281,9 @@ fn looked_back_at(chromium: &mut Chromium, tab: &Tab) {
     chromium.wait(tab, "Number(document.querySelector('#playat').value) > 3");
     chromium.wait(tab, "document.querySelector('#ghostway').points.length > 20");
     chromium.wait(tab, "document.querySelector('#play').textContent === 'Play'");
+    chromium.click(tab, "#solid", [0.0; 2]);
+    chromium.picture(tab, "playback");
+    chromium.click(tab, "#solid", [0.0; 2]);
     let played = chromium.evaluate(tab, "document.querySelector('#playtime').textContent");
     assert!(played.as_str().unwrap().starts_with("Played back"), "{played}");
     assert_eq!(chromium.evaluate(tab, "status.phase"), "standby");
@@ -302,6 +305,7 @@ fn looked_back_at(chromium: &mut Chromium, tab: &Tab) {
     assert_eq!(chromium.evaluate(tab, &caption("position")), stands);
     chromium.click(tab, "#pauseplots", [0.0; 2]);
     chromium.wait(tab, &format!("{} !== {stands}", caption("position")));
+    chromium.picture(tab, "plots");
 }
 
 /// The address by which other machines would reach this one.
@@ -477,9 +481,7 @@ fn the_pictures_of_the_plan_and_of_the_flights() {
     chromium.click(&tab, "#start", [0.0; 2]);
     chromium.click(&tab, "[data-show=plots]", [0.0; 2]);
     chromium.wait(&tab, "status.step === 6");
-    if let Some(folder) = std::env::var_os("PAGE_PICTURES") {
-        chromium.screenshot(&tab, &Path::new(&folder).join("plots.png"));
-    }
+    chromium.picture(&tab, "plots");
     happened(&mut chromium, &tab, "plan flown to its end");
     chromium.click(&tab, "[data-show=flights]", [0.0; 2]);
     chromium.wait(
@@ -492,11 +494,9 @@ fn the_pictures_of_the_plan_and_of_the_flights() {
     }
     chromium.wait(&tab, "document.querySelectorAll('#comparison polyline').length === 8");
     chromium.screenshot(&tab, Path::new("../docs/flights.png"));
-    if let Some(folder) = std::env::var_os("PAGE_PICTURES") {
-        chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
-        std::thread::sleep(Duration::from_secs(2));
-        chromium.screenshot(&tab, &Path::new(&folder).join("report.png"));
-    }
+    chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
+    std::thread::sleep(Duration::from_secs(2));
+    chromium.picture(&tab, "report");
     station.end();
 }
 
@@ -573,7 +573,6 @@ fn the_page_fits_telephones_and_large_screens() {
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     planner(&mut chromium, &tab);
-    let pictures = std::env::var_os("PAGE_PICTURES");
     for (width, height) in [(360, 740), (820, 1180), (1366, 768), (1920, 1080)] {
         for scheme in ["light", "dark"] {
             chromium.look(&tab, [width, height], scheme);
@@ -582,11 +581,7 @@ fn the_page_fits_telephones_and_large_screens() {
                 chromium.wait(&tab, &format!("view === '{name}'"));
                 let wide = number(&mut chromium, &tab, "document.documentElement.scrollWidth");
                 assert!(wide <= f64::from(width), "{name} is {wide} wide at {width}");
-                if let Some(folder) = &pictures {
-                    std::thread::sleep(Duration::from_millis(300));
-                    let file = Path::new(folder).join(format!("{name}-{width}-{scheme}.png"));
-                    chromium.screenshot(&tab, &file);
-                }
+                chromium.picture(&tab, &format!("{name}-{width}-{scheme}"));
             }
         }
     }

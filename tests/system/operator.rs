@@ -78,6 +78,7 @@ fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
         chromium.wait(&tab, &format!("!{bright}"));
     }
     chromium.wait(&tab, "document.querySelector('#recover').classList.contains('prime')");
+    chromium.picture(&tab, "emergency");
     // One click asks, and two do.
     chromium.click(&tab, "#recover", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#recover').innerText.startsWith('Again')");
@@ -141,6 +142,7 @@ fn nothing_moves_under_the_cursor() {
     chromium.evaluate(&tab, "order({ order: 'start' })");
     chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.7");
     chromium.click(&tab, "#byhand", [0.0; 2]);
+    chromium.picture(&tab, "by-hand-phone");
     let box_of = |chromium: &mut Chromium, selector: &str| {
         let edges = format!(
             "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); [box.top, box.bottom] }}"
@@ -152,6 +154,8 @@ fn nothing_moves_under_the_cursor() {
     assert!(bottom - top <= 120.0, "{}", bottom - top);
     let camera = box_of(&mut chromium, ".camera");
     assert!(camera[0] >= 0.0 && camera[1] <= top, "{camera:?}, {top}");
+    chromium.look(&tab, [1400, 860], "dark");
+    chromium.picture(&tab, "by-hand");
 }
 
 /// Keys as in the terminal. A key that is held is one order, and the space bar holds whatever was clicked last.

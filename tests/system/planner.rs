@@ -261,9 +261,9 @@ fn pictures_of_a_long_flight() {
     let mut chromium = Chromium::start().expect("chromium");
     let station = Station::start();
     let tab = planner(&mut chromium, &station);
-    let steps: String =
-        (0..60).map(|step| format!("goto {} {} 0.{} 0\n", step % 7, step % 5, step % 9)).collect();
-    chromium.type_into(&tab, "#plantext", &format!("takeoff\n{steps}land\n"));
+    let steps = (0..60).map(|step| format!("goto {} {} 0.{} 0", step % 7, step % 5, step % 9));
+    let steps = steps.collect::<Vec<_>>().join("\n");
+    chromium.type_into(&tab, "#plantext", &format!("takeoff\n{steps}\nland\n"));
     chromium
         .wait(&tab, "plan.targets().length === 60 && !document.querySelector('#load').disabled");
     chromium.click(&tab, "#load", [0.0; 2]);

@@ -88,7 +88,8 @@ impl Snapshot {
                 let event = json!({
                     "type": "event",
                     "t_s": at.as_secs_f64(),
-                    "warning": *outcome != Outcome::Completed,
+                    // What was ordered surprises nobody.
+                    "warning": !matches!(outcome, Outcome::Completed | Outcome::Interrupted),
                     "text": outcome.to_string(),
                     "step": null,
                     "command": null,

@@ -43,7 +43,7 @@ const dangers = (() => {
     const flies = ["flying", "landing"].includes(status.phase);
     const age = status.navdata_age_s;
     if (flies && age > LOST_S) return { level: "alarm", text: `LINK LOST for ${age.toFixed(0)} s: the drone is ordered to land. Go nearer with this machine, and keep people away.` };
-    if (status.landing) return { level: "alarm", text: `LANDING: ${status.landing}. Keep the ground below it free.` };
+    if (status.landing && !status.landing_ordered) return { level: "alarm", text: `LANDING: ${status.landing}. Keep the ground below it free.` };
     if (flies && status.battery_percent !== null && status.battery_percent <= EMPTY) return { level: "alarm", text: `BATTERY at ${status.battery_percent} %: land now.` };
     if (flies && status.contradicted_by) return { level: "alarm", text: `THE PLACE IS WRONG: ${status.contradicted_by} contradicts it. Watch the drone itself; land, or fly it by hand.` };
     if (flies && age > LATE_S) return { level: "warn", text: `No navdata for ${age.toFixed(1)} s: the drone hovers until they come.` };
