@@ -335,6 +335,22 @@ fn the_readmes_show_the_example_that_is_flown() {
     }
 }
 
+/// The lines of plans in the README's picture of the terminal are those of the agent.
+#[test]
+fn the_readme_shows_the_lines_of_the_agent() {
+    let readme = include_str!("../../README.md");
+    let words: Vec<&str> = readme.split_whitespace().collect();
+    let mut shown = 0;
+    for pair in words.windows(2) {
+        let Ok(line) = pair[1].trim_end_matches(['|', ',', '│']).parse::<u32>() else { continue };
+        let Some(goal) = pair[0].strip_prefix("+!") else { continue };
+        let plan = autopilot::agent::plan_text(autopilot::agent::SOURCE, line);
+        assert!(plan.contains(&format!("+!{goal}")), "{goal} is not in line {line}:\n{plan}");
+        shown += 1;
+    }
+    assert_eq!(shown, 8);
+}
+
 const PORTS: &str = "CLIENT_PORTS";
 
 /// The client process of the next test.

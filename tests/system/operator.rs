@@ -192,7 +192,14 @@ fn keys_hold_land_and_explain_themselves() {
     assert_eq!(chromium.evaluate(&tab, "JSON.stringify(sent)"), r#"["hold","resume"]"#);
     chromium.evaluate(&tab, "document.querySelector('#typed').blur()");
     chromium.strike(&tab, "l", "KeyL", 0);
-    chromium.wait(&tab, "status.phase !== 'flying'");
+    chromium.wait(&tab, "status.phase === 'landing'");
+    // What was ordered is no alarm.
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert_eq!(
+        chromium.evaluate(&tab, "document.querySelector('#bar').className === 'alarm'"),
+        false
+    );
+    chromium.wait(&tab, "!!over");
 }
 
 /// A program that is stopped and started again at its address is found again, and meanwhile nothing looks as if it was live.
