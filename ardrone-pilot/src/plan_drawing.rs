@@ -28,7 +28,7 @@ struct Place {
     arrival_s: f64,
     /// End of the stay.
     departure_s: f64,
-    /// Number among the targets; `None` for take-offs and landings.
+    /// Number of the step, if it has a target.
     target: Option<usize>,
 }
 
@@ -49,19 +49,18 @@ pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, Pla
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
     let mut places =
         vec![Place { pose: Pose::default(), arrival_s: 0.0, departure_s: 0.0, target: None }];
-    let (mut now_s, mut targets) = (0.0, 0);
-    for expected in plan.expectations(limits) {
+    let mut now_s = 0.0;
+    for (step, expected) in plan.expectations(limits).into_iter().enumerate() {
         let time_s = expected.time.as_secs_f64();
         now_s += time_s;
         if expected.leg_m == 0.0 && expected.target.is_none() {
             continue;
         }
-        targets += usize::from(expected.target.is_some());
         places.push(Place {
             pose: expected.place,
             arrival_s: now_s - expected.stay.as_secs_f64(),
             departure_s: now_s,
-            target: expected.target.map(|_| targets),
+            target: expected.target.map(|_| step + 1),
         });
     }
     places
@@ -180,4 +179,20 @@ fn over_time(area: &Drawing<'_>, places: &[Place], limits: &FlightLimits) -> Dra
             + Text::new(number.to_string(), (-3, -16), (FONT, 13))
     }))?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As on the page, in the terminal and in messages.
+    #[test]
+    fn targets_have_the_numbers_of_their_steps() {
+        let plan = Plan::parse("p", "takeoff\nsetStayTime 1\ngoto 0 1 0 0\nland\n").unwrap();
+        let numbers: Vec<usize> =
+            places(&plan, &FlightLimits::default()).iter().filter_map(|it| it.target).collect();
+        let goto = plan.steps().iter().position(|step| step.text.starts_with("goto")).unwrap();
+        assert_eq!(numbers, [goto + 1]);
+        assert!(goto > 0);
+    }
 }
