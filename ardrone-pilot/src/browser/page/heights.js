@@ -24,14 +24,7 @@ const heights = (() => {
   }
 
   function prepared(canvas) {
-    const { width, height } = canvas.getBoundingClientRect();
-    const scale = devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * scale)) canvas.width = Math.round(width * scale);
-    if (canvas.height !== Math.round(height * scale)) canvas.height = Math.round(height * scale);
-    const context = canvas.getContext("2d");
-    context.setTransform(scale, 0, 0, scale, 0, 0);
-    context.clearRect(0, 0, width, height);
-    context.font = "11px system-ui, sans-serif";
+    const { context, width, height } = emptied(canvas);
     context.lineWidth = 1.5;
     const style = getComputedStyle(document.documentElement);
     const probe = (name) => style.getPropertyValue(name).trim();

@@ -70,13 +70,7 @@ const plots = (() => {
   };
 
   function drawOne([, , least, names, , floor], index, { canvas, now }, colours, rows, row) {
-    const { width, height } = canvas.getBoundingClientRect();
-    const scale = devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * scale)) canvas.width = Math.round(width * scale);
-    if (canvas.height !== Math.round(height * scale)) canvas.height = Math.round(height * scale);
-    const context = canvas.getContext("2d");
-    context.setTransform(scale, 0, 0, scale, 0, 0);
-    context.clearRect(0, 0, width, height);
+    const { context, width, height } = emptied(canvas);
     const values = rows.flatMap(([, all]) => all[index]).filter(Number.isFinite);
     if (!values.length) {
       now.textContent = "–";
@@ -88,7 +82,6 @@ const plots = (() => {
     const end = rows.at(-1)[0];
     const x = (time) => width - ((end - time) / SHOWN) * (width - LEFT);
     const y = (value) => 6 + ((high - value) / (high - low)) * (height - 12 - BELOW);
-    context.font = "11px system-ui, sans-serif";
     const style = getComputedStyle(canvas);
     context.fillStyle = style.color;
     context.strokeStyle = style.borderTopColor;
