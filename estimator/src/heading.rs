@@ -190,6 +190,20 @@ impl Heading {
         })
     }
 
+    /// Turn rate at a time after the newest measurement: that of the last headings, predicted from the sticks since.
+    pub(crate) fn rate_deg_s(
+        &self,
+        time_s: f64,
+        orders: &Orders,
+        airframe: &Airframe,
+        limits: &DroneLimits,
+    ) -> f64 {
+        self.measured.back().map_or(0.0, |(from_s, _)| {
+            let model = Turning { orders, airframe, limits };
+            model.turned(self.measured_deg_s(), *from_s, time_s.max(*from_s)).0
+        })
+    }
+
     /// The heading that was measured at a time, if the newest one was.
     pub(crate) fn measured_deg(&self, at_s: f64) -> Option<f64> {
         self.measured

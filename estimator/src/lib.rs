@@ -590,6 +590,13 @@ impl Estimator {
         &self.estimate
     }
 
+    /// Turn rate at a time, clockwise, in degrees per second: measured by the compass, and predicted from the sticks since. In
+    /// contrast to the rate of [`Estimator::predicted`] it tells also of turns that nobody has ordered.
+    pub fn turn_rate_deg_s(&self, at: Duration) -> f64 {
+        let (airframe, limits) = (self.airframe(), &self.config.limits);
+        self.heading.rate_deg_s(at.as_secs_f64(), &self.orders, airframe, limits)
+    }
+
     /// Position and motion at a time: the newest measurement, propagated by the model. The time may lie as
     /// far ahead as [`Estimator::order_delay`], because the orders until then are known.
     pub fn predicted(&self, at: Duration) -> Prediction {

@@ -54,6 +54,19 @@ fn clockwise_heading_turns_forward_to_the_right() {
 }
 
 #[test]
+fn a_turn_that_nobody_ordered_has_a_rate_too() {
+    let mut estimator = Estimator::default();
+    let turn = (0..=60_u32).map(|i| sample(66 * u64::from(i), 0.6 * f64::from(i), 0.0, 0.0));
+    turn.enumerate().map(alive).for_each(|sample| estimator.update(&sample));
+    let now = Duration::from_millis(66 * 60);
+    // 0.6° in 66 ms, some of which has ended meanwhile by the model, in which it is not ordered.
+    let rate_deg_s = estimator.turn_rate_deg_s(now);
+    assert!((5.0..=9.5).contains(&rate_deg_s), "{rate_deg_s}");
+    assert!(estimator.predicted(now).turn_deg_s.abs() < 0.1);
+    assert!(Estimator::default().turn_rate_deg_s(now).abs() < 1e-9, "nothing heard yet");
+}
+
+#[test]
 fn lost_packets_do_not_change_the_distance() {
     let all = (0..=60).map(|i| sample(i * 66, 0.0, 1.0, 0.5));
     let some = all.clone().enumerate().filter(|(i, _)| i % 4 != 1).map(|(_, sample)| sample);

@@ -2,7 +2,7 @@
 
 use bytes::{Buf as _, BufMut, BytesMut};
 
-use super::options::{Demo, Gps, NavdataOption, Time, VisionDetect};
+use super::options::{Demo, Gps, NavdataOption, RawMeasures, Time, VisionDetect};
 use super::state::DroneState;
 use super::wire::OPTION_HEADER_BYTES;
 
@@ -132,6 +132,11 @@ impl<'a> Packet<'a> {
     /// Attitude, altitude, velocity and battery, if included.
     pub fn demo(&self) -> Option<Demo> {
         self.payload(0).and_then(Demo::read)
+    }
+
+    /// The sensors' raw readings and the battery's voltage, if included.
+    pub fn raw_measures(&self) -> Option<RawMeasures> {
+        self.payload(2).and_then(RawMeasures::read)
     }
 
     /// What the cameras have found, if it is in the packet.

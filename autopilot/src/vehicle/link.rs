@@ -13,6 +13,8 @@ use super::{FlightEvent, LandingReason, Outcome, Phase, Refused, Vehicle, sample
 const RATE_TIME_S: f64 = 1.0;
 /// The flight recorder measures once per second.
 pub(super) const GPS_MAX_AGE: Duration = Duration::from_secs(2);
+/// The voltage is in each packet.
+const VOLTAGE_MAX_AGE: Duration = Duration::from_secs(2);
 /// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
 /// so flying does not depend on it.
 pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
@@ -33,17 +35,19 @@ impl Vehicle {
         if !self.says_on_ground() {
             self.off_ground_at = Some(now);
         }
-        if (self.config.gps || self.config.estimator.tags.is_some())
-            && let Ok(packet) = Packet::decode(datagram)
-        {
+        if let Ok(packet) = Packet::decode(datagram) {
             self.handle_further_options(now, &packet);
         }
         Ok(())
     }
 
-    /// What the session does not need: roundels, and the flight recorder's position, which is not in every packet.
+    /// What the session does not need: the battery's voltage, roundels, and the flight recorder's position, which is not in every packet.
     fn handle_further_options(&mut self, now: Duration, packet: &Packet<'_>) {
-        if packet.demo().is_some() {
+        // No battery that lets a drone send has 0 V: it is not measured.
+        if let Some(raw) = packet.raw_measures().filter(|raw| raw.battery_v > 0.0) {
+            self.battery_v = Some((now, raw.battery_v));
+        }
+        if self.config.estimator.tags.is_some() && packet.demo().is_some() {
             self.flight.estimator.see(&sights(packet));
         }
         if self.config.gps
@@ -57,6 +61,12 @@ impl Vehicle {
     pub(super) fn gps(&self, now: Duration) -> Option<GpsFix> {
         let (at, fix) = self.gps?;
         (now.saturating_sub(at) <= GPS_MAX_AGE).then_some(fix)
+    }
+
+    /// The battery's voltage, if it is not older than [`VOLTAGE_MAX_AGE`].
+    pub(super) fn battery_v(&self, now: Duration) -> Option<f64> {
+        let (at, battery_v) = self.battery_v?;
+        (now.saturating_sub(at) <= VOLTAGE_MAX_AGE).then_some(battery_v)
     }
 
     /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone

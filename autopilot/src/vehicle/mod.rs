@@ -186,6 +186,8 @@ pub struct Vehicle {
     /// Position by the drone's flight recorder.
     /// The flight recorder's last position, and when it arrived.
     gps: Option<(Duration, GpsFix)>,
+    /// When the battery's voltage was heard, and what it was.
+    battery_v: Option<(Duration, f64)>,
     last_tick: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
@@ -256,6 +258,7 @@ impl Vehicle {
             flight: Flight::new(config, Duration::ZERO),
             navdata: None,
             gps: None,
+            battery_v: None,
             last_tick: None,
             navdata_hz: 0.0,
             packet_at: None,
@@ -376,9 +379,14 @@ impl Vehicle {
                 .session
                 .silence(now)
                 .and(self.decision.as_ref().map(|decision| decision.state.velocity_m_s.into())),
+            turn_rate_deg_s: self
+                .session
+                .silence(now)
+                .map(|_| self.flight.estimator.turn_rate_deg_s(now)),
             target: self.flight.target,
             distance_m: self.flight.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),
+            battery_v: self.battery_v(now),
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             rests_on: RestsOn::of(tags.as_ref()),
@@ -439,8 +447,8 @@ fn pose(state: &Prediction) -> Pose {
 /// Settings made before each flight, because other clients may have left different values.
 fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
     let limits = &config.estimator.limits;
-    // Options demo, time and vision_detect; and the flight recorder's.
-    let options = [0, 1, 16].into_iter().chain(config.gps.then_some(27));
+    // Options demo, time, raw_measures (for the battery's voltage) and vision_detect; and the flight recorder's.
+    let options = [0, 1, 2, 16].into_iter().chain(config.gps.then_some(27));
     let mut settings = vec![
         Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
         Setting::NavdataOptions(options.collect()),

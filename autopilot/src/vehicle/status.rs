@@ -39,12 +39,16 @@ pub struct Status {
     pub pose: Option<Pose>,
     /// Estimated velocity, right, forward and up; `None` until the drone has been heard.
     pub velocity_m_s: Option<[f64; 3]>,
+    /// Turn rate, clockwise, in degrees per second: measured, and predicted since; `None` until the drone has been heard.
+    pub turn_rate_deg_s: Option<f64>,
     /// Current target pose.
     pub target: Option<Pose>,
     /// Distance to the target.
     pub distance_m: Option<f64>,
     /// Remaining charge.
     pub battery_percent: Option<u32>,
+    /// Voltage of the battery, if the drone tells it.
+    pub battery_v: Option<f64>,
     /// Standard deviation of the position on each horizontal axis. It grows with time, because velocity is
     /// integrated.
     pub horizontal_deviation_m: f64,

@@ -234,3 +234,24 @@ fn a_position_by_gps_stays_until_it_is_old_or_lost() {
     bench.step();
     assert_eq!(latitude_deg(&bench), None, "lost");
 }
+
+#[test]
+fn the_batterys_voltage_is_asked_for_and_told_while_it_is_fresh() {
+    let mut bench = Bench::new();
+    let settings = drone_settings(&VehicleConfig::default()).unwrap();
+    let asked = |config: &&Config| format!("{config:?}").contains(NAVDATA_OPTIONS_KEY);
+    let asked = format!("{:?}", settings.iter().find(asked));
+    assert!(asked.contains("65543"), "demo, time, raw_measures and vision_detect: {asked}");
+    let told_v = |bench: &Bench| bench.vehicle.status(bench.now).battery_v;
+    bench.run(3 * SECOND);
+    assert_eq!(told_v(&bench), None);
+    bench.battery_v = Some(11.686);
+    bench.step();
+    assert_eq!(told_v(&bench), Some(11.686));
+    // A drone that does not measure it.
+    bench.battery_v = Some(0.0);
+    bench.run(SECOND);
+    assert_eq!(told_v(&bench), Some(11.686));
+    bench.run(2 * SECOND);
+    assert_eq!(told_v(&bench), None, "too old");
+}

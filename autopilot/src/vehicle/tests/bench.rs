@@ -1,7 +1,7 @@
 //! A vehicle with a drone that only says what a test wants it to say: it has no physics.
 
 use ardrone_link::at::{Command, ControlMode, Ref, decode};
-use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter, VisionDetect};
+use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter, RawMeasures, VisionDetect};
 use bytes::BytesMut;
 
 use super::super::*;
@@ -32,6 +32,8 @@ pub(super) struct Bench {
     pub(super) sees_tag: bool,
     /// The flight recorder's option of its next packets.
     pub(super) gps: Option<Gps>,
+    /// The voltage in its next packets.
+    pub(super) battery_v: Option<f64>,
     /// The drone climbs and sinks slowly, because a jump is not plausible.
     height_m: f64,
     /// Commands of the last datagram.
@@ -64,6 +66,7 @@ impl Bench {
             leans_deg: [0.0; 2],
             sees_tag: false,
             gps: None,
+            battery_v: None,
             height_m: 0.0,
             commands: Vec::new(),
             events: Vec::new(),
@@ -187,6 +190,10 @@ impl Bench {
         let mut packet = PacketWriter::new(&mut bytes, self.state, self.sequence, 0);
         if self.has_demo {
             packet.option(&NavdataOption::Demo(self.demo())).unwrap();
+        }
+        if let Some(battery_v) = self.battery_v {
+            let raw = RawMeasures { battery_v, ..RawMeasures::default() };
+            packet.option(&NavdataOption::RawMeasures(raw)).unwrap();
         }
         if self.sees_tag {
             packet.option(&NavdataOption::VisionDetect(self.sight())).unwrap();
