@@ -1,8 +1,10 @@
 //! How missions travel: one upload at a time, and downloads.
 //!
 //! An upload replaces the stored mission as a whole or not at all. Whoever began it is the only one who can go on
-//! with it or give it up; the vehicle gives it up when it has asked for an item six times in vain. Each message is
-//! answered with at most two.
+//! with it or give it up; the vehicle gives it up when it has asked for an item six times in vain, and refuses it at the first
+//! item that cannot be flown: QGroundControl blames the one that was asked for last. Networks lose, double and reorder: what
+//! comes twice, late or too early is no error, and the item that is missing is asked for again. Each message is answered with
+//! at most one.
 
 use std::time::Duration;
 
@@ -97,24 +99,19 @@ pub(crate) enum Event {
 /// What is to be done after a message or some time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Handled {
-    /// The messages to send to the partner, in order.
-    pub(crate) messages: ArrayVec<Message, 2>,
+    /// The message to send to the partner, if there is one.
+    pub(crate) messages: ArrayVec<Message, 1>,
     /// What happened, if it did.
     pub(crate) event: Option<Event>,
 }
 
 impl Handled {
     fn send(message: Message) -> Self {
-        Self::default().then(message)
+        Self { messages: [message].into(), event: None }
     }
 
     fn ack(result: MavMissionResult, mission_type: u8) -> Self {
         Self::send(Message::Ack { result, mission_type })
-    }
-
-    fn then(mut self, message: Message) -> Self {
-        self.messages.push(message);
-        self
     }
 
     fn with(self, event: Event) -> Self {
@@ -145,8 +142,6 @@ struct Upload {
     count: u16,
     asked_at: Duration,
     repeats: u8,
-    /// Items below this one may still be under way from before the partner began anew.
-    under_way: u16,
 }
 
 /// An upload that has ended, whose acknowledgement may have been lost.
@@ -154,7 +149,8 @@ struct Upload {
 struct Finished {
     from: Partner,
     at: Duration,
-    last: u16,
+    /// The item at which it ended; `None` once the mission was removed.
+    last: Option<u16>,
     result: MavMissionResult,
 }
 
@@ -255,7 +251,8 @@ impl Transfer {
             return Handled::default();
         }
         if upload.repeats >= REPEATS {
-            self.upload = None;
+            let from = upload.from;
+            self.end_upload(now, from, seq, result::OPERATION_CANCELLED);
             return Handled::ack(result::OPERATION_CANCELLED, MISSION).with(Event::Cancelled);
         }
         upload.repeats += 1;
@@ -266,7 +263,9 @@ impl Transfer {
     /// Removes the mission, and gives up an upload.
     pub(crate) fn clear(&mut self) {
         self.upload = None;
-        self.finished = None;
+        if let Some(finished) = &mut self.finished {
+            finished.last = None;
+        }
         self.store(Vec::new(), 0, Translated::default());
     }
 
@@ -284,7 +283,7 @@ impl Transfer {
     }
 
     fn count(&mut self, now: Duration, from: Partner, count: u16) -> Handled {
-        let before = self.upload.take();
+        self.upload = None;
         self.finished = None;
         if count == 0 {
             self.clear();
@@ -297,11 +296,9 @@ impl Transfer {
             let problem = Problem { item, result: result::NO_SPACE, reason };
             return Handled::ack(result::NO_SPACE, MISSION).with(Event::Refused(problem));
         }
-        let asked = self.wanted().saturating_add(1);
-        let under_way = before.map_or(0, |before| before.under_way.max(asked));
         self.incoming.clear();
         self.incoming.reserve_exact(usize::from(count));
-        self.upload = Some(Upload { from, count, asked_at: now, repeats: 0, under_way });
+        self.upload = Some(Upload { from, count, asked_at: now, repeats: 0 });
         Handled::send(Message::Request { seq: 0 })
     }
 
@@ -312,58 +309,54 @@ impl Transfer {
         if known == Some(item) {
             return Handled::default();
         }
-        upload.asked_at = now;
         if known.is_some() {
             // One of the two is from before the partner began anew.
+            upload.asked_at = now;
             self.incoming.clear();
-            upload.under_way = upload.under_way.max(wanted.saturating_add(1));
             return Handled::send(Message::Request { seq: 0 });
         }
         if item.seq != wanted {
-            let again = Message::Request { seq: wanted };
-            if item.seq < upload.under_way {
-                return Handled::send(again);
-            }
-            return Handled::ack(result::INVALID_SEQUENCE, MISSION).then(again);
+            // The one that is missing is asked for again in time. At once would never end with a partner that counts otherwise.
+            return Handled::default();
         }
+        upload.asked_at = now;
         upload.repeats = 0;
         self.incoming.push(*item);
         let next = wanted + 1;
-        if next < upload.count {
-            return Handled::send(Message::Request { seq: next });
-        }
-        self.upload = None;
-        self.finish(now, from, item.seq, rules)
-    }
-
-    fn finish(&mut self, now: Duration, from: Partner, last: u16, rules: &Rules) -> Handled {
-        let items = std::mem::take(&mut self.incoming);
-        let (result, event) = match translate(&items, from.component, rules) {
+        let is_last = next >= upload.count;
+        let (result, event) = match translate(&self.incoming, from.component, rules) {
+            Ok(_) if !is_last => return Handled::send(Message::Request { seq: next }),
             Ok(translated) => {
+                let items = std::mem::take(&mut self.incoming);
                 self.store(items, from.component, translated);
                 (result::ACCEPTED, Event::Accepted)
             }
             Err(problem) => (problem.result, Event::Refused(problem)),
         };
-        self.finished = Some(Finished { from, at: now, last, result });
+        self.end_upload(now, from, item.seq, result);
         Handled::ack(result, MISSION).with(event)
     }
 
-    /// An item while no upload goes on.
+    /// The upload has ended with the item `last`, or with waiting for it.
+    fn end_upload(&mut self, now: Duration, from: Partner, last: u16, result: MavMissionResult) {
+        self.upload = None;
+        self.finished = Some(Finished { from, at: now, last: Some(last), result });
+    }
+
+    /// An item while no upload goes on: the last one again, because the acknowledgement was lost, or one that was doubled or
+    /// delayed on its way, or one that nobody has asked for.
     fn late_item(&self, now: Duration, from: Partner, item: &Item) -> Handled {
-        match self.finished {
-            Some(finished)
-                if finished.from == from
-                    && now.saturating_sub(finished.at) <= REMEMBERED_FOR
-                    && item.seq <= finished.last =>
-            {
-                if item.seq < finished.last {
-                    return Handled::default();
-                }
-                Handled::ack(finished.result, MISSION)
+        if let Some(finished) = self.finished.filter(|finished| finished.from == from) {
+            let recent = now.saturating_sub(finished.at) <= REMEMBERED_FOR;
+            if finished.last == Some(item.seq) && recent {
+                return Handled::ack(finished.result, MISSION);
             }
-            _ => Handled::ack(result::INVALID_SEQUENCE, MISSION),
+            let stored = self.items.get(usize::from(item.seq)) == Some(item);
+            if recent || stored {
+                return Handled::default();
+            }
         }
+        Handled::ack(result::INVALID_SEQUENCE, MISSION)
     }
 
     fn list(&mut self, by: Partner) -> Handled {

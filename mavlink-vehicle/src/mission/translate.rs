@@ -109,8 +109,16 @@ struct At<'a> {
 }
 
 impl At<'_> {
+    /// The item for a person: its number is one less than that of the marker on QGroundControl's map, so what it does is named.
+    fn named(self) -> String {
+        match name_of(self.item.command) {
+            Some(name) => format!("item {} ({name})", self.index),
+            None => format!("item {}", self.index),
+        }
+    }
+
     fn problem(self, result: MavMissionResult, reason: impl AsRef<str>) -> Problem {
-        let reason = format!("item {}: {}", self.index, reason.as_ref());
+        let reason = format!("{}: {}", self.named(), reason.as_ref());
         Problem { item: self.index, result, reason }
     }
 
@@ -233,9 +241,11 @@ impl Translator {
         self.yaw_deg = self.yaw(at)?;
         self.push(at, TAKE_OFF);
         let height_m = place.z_m.filter(|_| at.item.z != 0.0);
-        let wanted_m = height_m.unwrap_or(self.height_m());
-        let z_m = self.clamped(wanted_m);
-        self.note_limit(at, "altitude", "m", wanted_m, z_m);
+        let own_m = self.height_m();
+        // What is outside the limits is not clamped: nobody who takes off in a room wants to be at its ceiling, and
+        // QGroundControl's plans begin with a take-off to its own default height.
+        let z_m = height_m.and_then(|m| self.height(at, m).ok()).unwrap_or(own_m);
+        self.note_limit(at, "altitude", "m", height_m.unwrap_or(own_m), z_m);
         let pose = Pose { x_m, y_m, z_m, yaw_deg: self.yaw_deg };
         if height_m.is_some() {
             self.go_to(at, pose, REACH_M, SHORT_STAY_S);
@@ -369,7 +379,7 @@ impl Translator {
     /// Notes that a quantity was moved into its limits, if it was.
     fn note_limit(&mut self, at: At<'_>, what: &str, unit: &str, wanted: f64, flown: f64) {
         if (wanted - flown).abs() > 0.01 {
-            let note = format!("item {}: {what} {flown:.2} {unit}, not {wanted:.2}", at.index);
+            let note = format!("{}: {what} {flown:.2} {unit}, not {wanted:.2}", at.named());
             self.limited.push(note);
         }
     }
@@ -510,6 +520,24 @@ fn result_of(parameter: u8) -> MavMissionResult {
         4 => result::INVALID_PARAM4,
         _ => result::INVALID_PARAM7,
     }
+}
+
+/// What QGroundControl calls an item with this command.
+fn name_of(command: u16) -> Option<&'static str> {
+    Some(match command {
+        command::NAV_WAYPOINT => "Waypoint",
+        command::NAV_LOITER_UNLIM => "Loiter",
+        command::NAV_LOITER_TIME => "Loiter Time",
+        command::NAV_RETURN_TO_LAUNCH => "Return To Launch",
+        command::NAV_LAND | command::NAV_LAND_LOCAL => "Land",
+        command::NAV_TAKEOFF | command::NAV_TAKEOFF_LOCAL => "Takeoff",
+        command::NAV_DELAY | command::CONDITION_DELAY => "Delay",
+        command::CONDITION_YAW => "Change heading",
+        command::DO_CHANGE_SPEED => "Change speed",
+        177 => "Jump To Item",
+        195 | 201 => "Region of interest",
+        _ => return None,
+    })
 }
 
 /// Why this command is refused.

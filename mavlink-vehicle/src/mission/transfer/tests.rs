@@ -166,7 +166,7 @@ fn a_new_count_begins_anew() {
     bench.assert(QGC, count(2), &[Message::Request { seq: 0 }]);
     // The answer to the request before is still under way, which is no reason to fail.
     let late = Received::Item(mission(1, 3)[1]);
-    bench.assert(QGC, late, &[Message::Request { seq: 0 }]);
+    bench.assert(QGC, late, &[]);
     for item in mission(2, 2) {
         bench.from(QGC, Received::Item(item));
     }
@@ -188,20 +188,75 @@ fn an_item_of_a_mission_given_up_does_not_stay() {
 }
 
 #[test]
-fn items_out_of_order_are_refused_and_repeated_ones_ignored() {
+fn items_that_come_twice_late_or_too_early_are_no_error() {
     let mut bench = Bench::default();
     let [first, second, third] = [0, 1, 2].map(|seq| Received::Item(mission(1, 3)[seq]));
     bench.from(QGC, count(3));
-    let wanted = |seq| [ack(result::INVALID_SEQUENCE), Message::Request { seq }];
-    bench.assert(QGC, second, &wanted(0));
+    bench.assert(QGC, second, &[]);
+    // What is missing is asked for again, as if nothing had come.
+    assert_eq!(bench.after(250), (vec![Message::Request { seq: 0 }], None));
     bench.assert(QGC, first, &[Message::Request { seq: 1 }]);
     bench.assert(QGC, first, &[]);
-    bench.assert(QGC, third, &wanted(1));
+    bench.assert(QGC, third, &[]);
+    assert_eq!(bench.after(250), (vec![Message::Request { seq: 1 }], None));
     bench.assert(QGC, second, &[Message::Request { seq: 2 }]);
     bench.assert(QGC, first, &[]);
     bench.assert(QGC, second, &[]);
     bench.assert(QGC, third, &[ack(result::ACCEPTED)]);
     assert_eq!(bench.transfer.items(), mission(1, 3));
+    // Copies of it, however late; one that belongs to nothing is an error.
+    bench.after(60_000);
+    for item in [first, second, third] {
+        bench.assert(QGC, item, &[]);
+    }
+    bench.assert(QGC, Received::Item(mission(2, 3)[1]), &[ack(result::INVALID_SEQUENCE)]);
+}
+
+#[test]
+fn late_items_of_a_mission_that_was_removed_are_no_error() {
+    let mut bench = Bench::default();
+    bench.upload(&mission(1, 2));
+    bench.from(QGC, Received::ClearAll { mission_type: MISSION });
+    for item in mission(1, 2) {
+        bench.assert(QGC, Received::Item(item), &[]);
+    }
+}
+
+#[test]
+fn a_partner_that_counts_otherwise_is_given_up_as_a_silent_one_is() {
+    let mut bench = Bench::default();
+    bench.from(QGC, count(3));
+    for _ in 0..5 {
+        bench.assert(QGC, Received::Item(mission(1, 3)[2]), &[]);
+        assert_eq!(bench.after(250).0, [Message::Request { seq: 0 }]);
+    }
+    assert_eq!(bench.after(250).1, Some(Event::Cancelled));
+    // Its item, late, has the same answer.
+    bench.assert(QGC, Received::Item(mission(1, 3)[0]), &[ack(result::OPERATION_CANCELLED)]);
+}
+
+/// QGroundControl blames the item that was asked for last.
+#[test]
+fn an_upload_is_refused_at_the_item_that_is_wrong() {
+    let mut bench = Bench::default();
+    bench.upload(&mission(1, 2));
+    let items: Vec<_> = mission(2, 5)
+        .into_iter()
+        .map(|item| if item.seq == 2 { Item { z: -9.0, ..item } } else { item })
+        .collect();
+    bench.from(QGC, count(5));
+    bench.assert(QGC, Received::Item(items[0]), &[Message::Request { seq: 1 }]);
+    bench.assert(QGC, Received::Item(items[1]), &[Message::Request { seq: 2 }]);
+    let (messages, event) = bench.from(QGC, Received::Item(items[2]));
+    assert_eq!(messages, [ack(result::INVALID_PARAM7)]);
+    let Some(Event::Refused(problem)) = event else { panic!("not refused") };
+    assert_eq!(problem.item, 2);
+    assert!(problem.reason.starts_with("item 2 (Waypoint): 9.00 m"), "{problem}");
+    assert_eq!((bench.transfer.uploading(), bench.transfer.items()), (None, &mission(1, 2)[..]));
+    // Copies that are under way change nothing, and the answer is repeated if it was lost.
+    bench.assert(QGC, Received::Item(items[1]), &[]);
+    bench.assert(QGC, Received::Item(items[2]), &[ack(result::INVALID_PARAM7)]);
+    assert_eq!(bench.after(1000), (vec![], None));
 }
 
 #[test]
@@ -214,7 +269,7 @@ fn a_last_item_is_acknowledged_again() {
     bench.assert(QGC, first, &[]);
     bench.assert(OTHER, last, &[ack(result::INVALID_SEQUENCE)]);
     bench.after(1);
-    bench.assert(QGC, last, &[ack(result::INVALID_SEQUENCE)]);
+    bench.assert(QGC, last, &[]);
     // The same result, if it was a refusal.
     let high = Item { z: -3.5, ..mission(2, 1)[0] };
     let (messages, event) = bench.upload(&[high]);

@@ -57,7 +57,7 @@ fn assert_problem(items: &[Item], result: MavMissionResult, reason: &str) {
     let problem = translated_by(items, &RULES).unwrap_err();
     assert_eq!(problem.result, result, "{problem}");
     assert!(problem.reason.contains(reason), "{problem}");
-    assert!(problem.reason.starts_with(&format!("item {}: ", problem.item)), "{problem}");
+    assert!(problem.reason.starts_with(&format!("item {}", problem.item)), "{problem}");
     assert!(problem.reason.len() <= 200);
 }
 
@@ -68,7 +68,10 @@ fn what_is_moved_into_the_limits_is_told() {
     let found = translated(&[high, speed(0.5), speed(9.0), at(NAV_WAYPOINT, 1, 2, 1.2)]);
     assert_eq!(
         found.limited(),
-        ["item 0: altitude 3.00 m, not 50.00", "item 2: speed 2.20 m/s, not 9.00"]
+        [
+            "item 0 (Takeoff): altitude 0.85 m, not 50.00",
+            "item 2 (Change speed): speed 2.20 m/s, not 9.00"
+        ]
     );
     assert!(found.limited().iter().all(|note| note.len() <= 100));
     assert!(translated(&[take_off(), speed(0.5)]).limited().is_empty());
@@ -107,8 +110,11 @@ fn a_take_off_climbs_to_the_height_of_its_item() {
     for z in [0.0, f32::NAN] {
         assert_flown(&[Item { z, ..take_off() }], &["takeoff"]);
     }
-    assert_flown(&[Item { z: 3.048, ..take_off() }], &["takeoff", "goto 0 0 3 0"]);
-    assert_flown(&[Item { z: 0.1, ..take_off() }], &["takeoff", "goto 0 0 0.3 0"]);
+    // Outside the limits it is the vehicle's own: the way to the ceiling is nobody's wish.
+    for z in [3.048, 10.0, 0.1] {
+        assert_flown(&[Item { z, ..take_off() }], &["takeoff", "goto 0 0 0.85 0"]);
+    }
+    assert_flown(&[Item { z: 3.01, ..take_off() }], &["takeoff", "goto 0 0 3 0"]);
     assert_flown(&[Item { z: 490.0, frame: 0, ..take_off() }], &["takeoff", "goto 0 0 2 0"]);
     // Near the start, or nowhere.
     assert_flown(&[at(NAV_TAKEOFF, 1, 2, 1.0)], &["takeoff", "goto 1 2 1 0"]);
@@ -218,7 +224,7 @@ fn an_endless_loiter_is_the_end() {
     assert_problem(
         &[endless, at(NAV_WAYPOINT, 1, 0, 1.0)],
         result::UNSUPPORTED,
-        "item 1: nothing is flown behind the endless hold of item 0",
+        "item 1 (Waypoint): nothing is flown behind the endless hold of item 0",
     );
     let here = item(0, MISSION, NAV_LOITER_UNLIM);
     assert_flown(&[take_off(), here], &["takeoff", "goto 0 0 1.5 0", "goto 0 0 1.5 0"]);
@@ -344,7 +350,7 @@ fn other_commands_are_refused_by_name() {
 #[test]
 fn the_fence_is_respected_to_a_centimetre() {
     let outside = [take_off(), at(NAV_WAYPOINT, 8, 9, 1.0)];
-    assert_problem(&outside, result::INVALID_PARAM5_X, "item 1: 12.04 m from the start");
+    assert_problem(&outside, result::INVALID_PARAM5_X, "item 1 (Waypoint): 12.04 m from the start");
     for z_m in [0.2, 3.1, -1.0] {
         assert_problem(
             &[at(NAV_WAYPOINT, 1, 0, z_m)],
@@ -399,7 +405,7 @@ fn infinite_numbers_are_refused_and_named() {
 fn items_are_counted() {
     let way_point = at(NAV_WAYPOINT, 1, 0, 1.0);
     assert!(translated_by(&[way_point; 200], &RULES).is_ok());
-    assert_problem(&[way_point; 201], result::NO_SPACE, "item 200: at most 200 items");
+    assert_problem(&[way_point; 201], result::NO_SPACE, "item 200 (Waypoint): at most 200 items");
     let problem = translate(&[way_point, way_point], GCS, &RULES).unwrap_err();
     assert_eq!((problem.item, problem.result), (1, result::INVALID_SEQUENCE));
     let fence = Item { mission_type: 1, ..way_point };
