@@ -6,6 +6,7 @@ use autopilot::vehicle::{Operator, OperatorOrder, Station as Kind};
 
 use super::MavlinkVehicle;
 use super::following::Following;
+use super::modes::Mode;
 use super::stations::Station;
 use crate::dialect::{MavResult, MavSeverity};
 
@@ -38,6 +39,8 @@ pub(super) struct Arming {
     armed: Option<(Duration, Operator)>,
     /// What will be done when it is armed.
     pending: Option<Pending>,
+    /// What was ordered when it was armed, until it flies.
+    begun: Option<Then>,
     /// Who has the controls, as long as that is known better than by the vehicle's last status.
     pub(super) controls: Option<Controls>,
 }
@@ -59,6 +62,21 @@ impl Arming {
     /// What waits for arming is given up.
     pub(super) fn give_up(&mut self) {
         self.pending = None;
+        self.begun = None;
+    }
+
+    /// What was ordered when it was armed was refused.
+    pub(super) fn not_begun(&mut self) {
+        self.begun = None;
+    }
+
+    /// The mode of what waits for arming, or was ordered and does not fly yet.
+    pub(super) fn begins(&self) -> Option<Mode> {
+        let then = self.pending.map(|pending| pending.then).or(self.begun)?;
+        Some(match then {
+            Then::TakeOff { .. } => Mode::TakeOff,
+            Then::Mission => Mode::Mission,
+        })
     }
 }
 
@@ -95,6 +113,7 @@ impl MavlinkVehicle {
     }
 
     fn do_then(&mut self, now: Duration, station: Station, command: Option<u16>, then: Then) {
+        self.arming.begun = Some(then);
         match then {
             Then::TakeOff { height_m } => self.take_off(now, station, command, height_m),
             Then::Mission => self.fly_mission(now, station, command),

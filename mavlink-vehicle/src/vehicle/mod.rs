@@ -260,7 +260,7 @@ impl MavlinkVehicle {
     fn mode(&self) -> Mode {
         let by_hand = matches!(self.following.followed(), Some((Source::Sticks, _)));
         let (purpose, goes_on) = (self.flown.purpose(), self.flown.goes_on());
-        let doing = Doing { purpose, by_hand, goes_on };
+        let doing = Doing { purpose, by_hand, goes_on, begins: self.arming.begins() };
         self.present().map_or(Mode::Hold, |status| modes::mode(status, doing))
     }
 }

@@ -120,6 +120,8 @@ pub(crate) struct Doing {
     pub(crate) by_hand: bool,
     /// Its mission is not at its end, even if it is between two steps.
     pub(crate) goes_on: bool,
+    /// The mode of what waits on the ground until it is armed, or has just been ordered there.
+    pub(crate) begins: Option<Mode>,
 }
 
 /// The mode of a vehicle.
@@ -127,7 +129,8 @@ pub(crate) fn mode(status: &Status, doing: Doing) -> Mode {
     match status.phase {
         Phase::Landing => return Mode::Land,
         Phase::Flying => {}
-        _ => return Mode::Hold,
+        // QGroundControl arms only once it sees the mode that it has set.
+        _ => return doing.begins.unwrap_or(Mode::Hold),
     }
     match status.manual {
         Some(ManualControl::Sticks) => return Mode::Position,
@@ -137,7 +140,10 @@ pub(crate) fn mode(status: &Status, doing: Doing) -> Mode {
         None => {}
     }
     match status.command {
+        // The landing belongs to the return, as the take-off to the mission: QGroundControl would else offer to go on with it.
+        Some("Land") if doing.purpose == Purpose::Return => Mode::Return,
         Some("Land") => Mode::Land,
+        Some("TakeOff") if doing.purpose == Purpose::Mission && doing.goes_on => Mode::Mission,
         Some("TakeOff") => Mode::TakeOff,
         _ if status.step.is_none() && !doing.goes_on => Mode::Hold,
         _ => match doing.purpose {

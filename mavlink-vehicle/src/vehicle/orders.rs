@@ -152,6 +152,7 @@ impl MavlinkVehicle {
     fn answered(&mut self, now: Duration, awaited: &Awaited) {
         self.acknowledge(awaited.station, awaited.command, awaited.result);
         if awaited.result != MavResult::MAV_RESULT_ACCEPTED {
+            self.arming.not_begun();
             return;
         }
         let by = awaited.station.operator();
@@ -192,6 +193,7 @@ impl MavlinkVehicle {
         let first = self.flown.first_item();
         let steps = self.transfer.translated().steps_from(first, self.is_airborne());
         if steps.is_empty() {
+            self.arming.not_begun();
             self.warn(format_args!("there is no mission, or nothing is left of it"));
             return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
         }
@@ -220,6 +222,7 @@ impl MavlinkVehicle {
         let commands = match Commands::new("MAVLink", self.flown.next_id(), !airborne, commands) {
             Ok(commands) => commands,
             Err(error) => {
+                self.arming.not_begun();
                 self.warn(format_args!("{error}"));
                 return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
             }
