@@ -2,23 +2,19 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::{OperatorOrder, Place};
+use autopilot::vehicle::OperatorOrder;
 
 use super::arming::Then;
 use super::following::Source;
-use super::modes::Mode;
+use super::modes::{self, Mode};
 use super::orders::After;
-use super::parameters::TAKE_OFF_HEIGHT;
 use super::stations::Station;
-use super::{Autopilot, MavlinkVehicle, To};
+use super::{MavlinkVehicle, To};
 use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
-use crate::place::{ABSENT, GRID_M};
+use crate::place::ABSENT;
 
 /// The number with which a disarming cuts the motors in flight.
 const MAGIC_CUT: f32 = 21196.0;
-/// `MAV_FRAME_GLOBAL` and `MAV_FRAME_GLOBAL_RELATIVE_ALT`.
-const GLOBAL: u8 = 0;
-const GLOBAL_RELATIVE: u8 = 3;
 
 /// A command of either kind.
 #[derive(Debug, Clone, Copy)]
@@ -27,11 +23,11 @@ pub(super) struct Asked {
     /// The first four parameters; NaN means "as usual".
     p: [f32; 4],
     /// Fifth and sixth as integers of the frame.
-    x: i32,
-    y: i32,
-    z: f32,
+    pub(super) x: i32,
+    pub(super) y: i32,
+    pub(super) z: f32,
     /// The frame; nothing in a `COMMAND_LONG`.
-    frame: Option<u8>,
+    pub(super) frame: Option<u8>,
 }
 
 impl Asked {
@@ -63,7 +59,7 @@ impl Asked {
     }
 
     /// A parameter, from 1; nothing if it is not a number.
-    fn parameter(&self, number: usize) -> Option<f32> {
+    pub(super) fn parameter(&self, number: usize) -> Option<f32> {
         self.p.get(number - 1).copied().filter(|value| value.is_finite())
     }
 
@@ -92,12 +88,32 @@ const NOT_NOW: End = End::Now(MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
 const UNSUPPORTED: End = End::Now(MavResult::MAV_RESULT_UNSUPPORTED);
 
 impl MavlinkVehicle {
+    /// An order is refused for good. Why reaches the person as an error: of anything less QGroundControl shows a red icon only.
+    pub(super) fn denied(&mut self, why: std::fmt::Arguments<'_>) -> End {
+        self.error(why);
+        DENIED
+    }
+
+    /// An order is refused as things are now.
+    pub(super) fn not_now(&mut self, why: std::fmt::Arguments<'_>) -> End {
+        self.error(why);
+        NOT_NOW
+    }
+
+    /// Whether somebody else has the controls, which is told whoever has just ordered something.
+    pub(super) fn leaves_to_others(&mut self, station: Station) -> bool {
+        let others = self.is_others(station);
+        if others && let Some(holder) = self.holder() {
+            self.error(format_args!("refused: {holder} has the controls"));
+        }
+        others
+    }
+
     pub(super) fn command(&mut self, now: Duration, station: Station, asked: &Asked) {
         let end = match self.question(station, asked) {
             Some(end) => end,
             None if self.config.view_only && is_known(asked.command) => {
-                self.warn(format_args!("view only: no orders are taken by MAVLink"));
-                DENIED
+                self.denied(format_args!("view only: no orders are taken by MAVLink"))
             }
             None => self.commanded(now, station, asked),
         };
@@ -169,34 +185,36 @@ impl MavlinkVehicle {
                 self.asked_to_take_off(now, station, asked)
             }
             MavCmdNumber::NAV_LAND | MavCmdNumber::NAV_LAND_LOCAL | MavCmdNumber::DO_LAND_START => {
-                self.change_mode(now, station, asked.command, Some(Mode::Land))
+                self.change_mode(now, station, asked.command, Mode::Land)
             }
             MavCmdNumber::NAV_RETURN_TO_LAUNCH => {
-                self.change_mode(now, station, asked.command, Some(Mode::Return))
+                self.change_mode(now, station, asked.command, Mode::Return)
             }
             MavCmdNumber::DO_SET_MODE => {
-                let mode = match asked.number::<u32>(2) {
+                let custom = match asked.number::<u32>(2) {
                     // MAVProxy and pymavlink send the whole number.
-                    Some(custom @ 256..) => Mode::from_custom(custom),
+                    Some(custom @ 256..) => Some(custom),
                     Some(main) => {
                         let sub = asked.number::<u8>(3).unwrap_or(0);
-                        u8::try_from(main).ok().and_then(|main| Mode::from_parts(main, sub))
+                        u8::try_from(main).ok().map(|main| modes::of_parts(main, sub))
                     }
                     None => None,
                 };
-                self.change_mode(now, station, asked.command, mode)
+                self.change_custom_mode(now, station, asked.command, custom)
             }
             MavCmdNumber::DO_SET_STANDARD_MODE => {
-                let mode = asked.number::<u8>(1).and_then(Mode::from_standard);
-                self.change_mode(now, station, asked.command, mode)
+                match asked.number::<u8>(1).and_then(Mode::from_standard) {
+                    Some(mode) => self.change_mode(now, station, asked.command, mode),
+                    None => self.no_such_mode(None),
+                }
             }
             MavCmdNumber::DO_REPOSITION => self.reposition(now, station, asked),
             MavCmdNumber::DO_PAUSE_CONTINUE => match asked.number::<u8>(1) {
-                Some(0) => self.change_mode(now, station, asked.command, Some(Mode::Hold)),
+                Some(0) => self.change_mode(now, station, asked.command, Mode::Hold),
                 // Asked again: the answer may have been lost.
                 Some(1) if self.goes_on() && !self.is_others(station) => ACCEPTED,
                 Some(1) if self.is_flying() => by_order(self, OperatorOrder::Resume),
-                Some(1) => NOT_NOW,
+                Some(1) => self.not_now(format_args!("nothing to go on with: it is on the ground")),
                 _ => DENIED,
             },
             MavCmdNumber::MISSION_START => {
@@ -221,7 +239,12 @@ impl MavlinkVehicle {
                     DENIED
                 }
             }
-            MavCmdNumber::DO_SET_HOME | MavCmdNumber::PREFLIGHT_REBOOT_SHUTDOWN => DENIED,
+            MavCmdNumber::DO_SET_HOME => {
+                self.denied(format_args!("home is the place of the take-off, and is not set"))
+            }
+            MavCmdNumber::PREFLIGHT_REBOOT_SHUTDOWN => {
+                self.denied(format_args!("the drone is not restarted by MAVLink"))
+            }
             _ => UNSUPPORTED,
         }
     }
@@ -233,17 +256,20 @@ impl MavlinkVehicle {
         match asked.number::<u8>(1) {
             Some(1) if self.is_flying() => ACCEPTED,
             // A forced arming skips the checks before a flight, which are not to be skipped.
-            Some(1) if magic != 0.0 => DENIED,
+            Some(1) if magic != 0.0 => {
+                self.denied(format_args!("forced arming is refused: arm without force"))
+            }
             Some(1) => {
                 // Sooner than its reasons not to take off say so.
                 if self.present().is_some_and(|status| status.emergency) {
-                    self.warn(format_args!("not ready: the drone is in its emergency state"));
-                    return NOT_NOW;
+                    return self
+                        .not_now(format_args!("PreArm: the drone is in its emergency state"));
                 }
-                let Some(why) = self.not_ready else { return NOT_NOW };
+                let Some(why) = self.not_ready else {
+                    return self.not_now(format_args!("PreArm: the drone has not answered yet"));
+                };
                 if !why.is_empty() {
-                    self.warn(format_args!("not ready: {why}"));
-                    return NOT_NOW;
+                    return self.not_now(format_args!("PreArm: {why}"));
                 }
                 let take = [OperatorOrder::Take];
                 self.order(now, station, Some(asked.command), After::Armed, take);
@@ -255,10 +281,9 @@ impl MavlinkVehicle {
                 End::Later
             }
             Some(0) if self.is_flying() => {
-                self.warn(format_args!("in flight: land, or cut the motors by their code"));
-                DENIED
+                self.denied(format_args!("in flight: land, or cut the motors by their code"))
             }
-            Some(0) if self.is_others(station) => NOT_NOW,
+            Some(0) if self.leaves_to_others(station) => NOT_NOW,
             Some(0) => {
                 self.disarm();
                 ACCEPTED
@@ -267,48 +292,33 @@ impl MavlinkVehicle {
         }
     }
 
-    fn asked_to_take_off(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
-        if self.is_flying() {
-            return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
-        }
-        if self.is_others(station) {
-            return NOT_NOW;
-        }
-        // QGroundControl asks PX4 by height above the sea; the others above the start.
-        let frame = asked.frame.unwrap_or(match self.config.autopilot {
-            Autopilot::Px4 => GLOBAL,
-            Autopilot::Generic => GLOBAL_RELATIVE,
-        });
-        let usual_m = self.parameters.value(TAKE_OFF_HEIGHT);
-        let wanted_m = match self.origin.place(frame, ABSENT, ABSENT, asked.z) {
-            Ok(place) if asked.z != 0.0 => place.z_m,
-            Ok(_) => None,
-            Err(error) => {
-                self.warn(format_args!("{error}"));
-                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
-            }
-        };
-        let wanted_m = wanted_m.or((usual_m > 0.0).then_some(usual_m));
-        let limits = self.config.limits;
-        let height_m = wanted_m.map(|height_m| height_m.clamp(limits.floor_m, limits.ceiling_m));
-        if let (Some(wanted_m), Some(height_m)) = (wanted_m, height_m)
-            && (wanted_m - height_m).abs() > 0.01
-        {
-            self.warn(format_args!("take-off to {height_m:.2} m, not {wanted_m:.2} m"));
-        }
-        self.when_armed(now, station, asked.command, Then::TakeOff { height_m });
-        End::Later
-    }
-
-    /// Changes the mode; `None` is one that this vehicle does not have.
-    pub(super) fn change_mode(
+    /// Changes to the mode of this number in PX4's `custom_mode`, if there is one.
+    pub(super) fn change_custom_mode(
         &mut self,
         now: Duration,
         station: Station,
         command: u16,
-        mode: Option<Mode>,
+        custom: Option<u32>,
     ) -> End {
-        let Some(mode) = mode else { return DENIED };
+        match custom.and_then(Mode::from_custom) {
+            Some(mode) => self.change_mode(now, station, command, mode),
+            None => self.no_such_mode(custom),
+        }
+    }
+
+    /// QGroundControl lists twelve of PX4's modes, whatever `AVAILABLE_MODES` says.
+    fn no_such_mode(&mut self, custom: Option<u32>) -> End {
+        match custom.and_then(modes::name_of_px4) {
+            Some(name) => self.denied(format_args!(
+                "mode {name} is not flown here: use {}",
+                modes::names().join(", ")
+            )),
+            None => self.denied(format_args!("no such mode: use {}", modes::names().join(", "))),
+        }
+    }
+
+    /// Changes the mode.
+    fn change_mode(&mut self, now: Duration, station: Station, command: u16, mode: Mode) -> End {
         let flies = self.is_flying();
         if matches!(mode, Mode::Hold | Mode::Land) {
             // Whoever orders so does not expect that a take-off follows.
@@ -320,31 +330,37 @@ impl MavlinkVehicle {
             Mode::Land if !flies && !self.arming.is_armed() => return ACCEPTED,
             Mode::Land => (After::Nothing, OperatorOrder::Land),
             Mode::TakeOff if flies => {
-                return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
+                if self.mode() == Mode::TakeOff {
+                    return ACCEPTED;
+                }
+                return self.not_now(format_args!("no take-off: it flies already"));
             }
-            Mode::TakeOff if self.is_others(station) => return NOT_NOW,
+            Mode::TakeOff if self.leaves_to_others(station) => return NOT_NOW,
             Mode::TakeOff => {
-                let usual_m = self.parameters.value(TAKE_OFF_HEIGHT);
-                let height_m = (usual_m > 0.0).then_some(usual_m);
+                let height_m = self.take_off_height_m(None);
                 self.when_armed(now, station, command, Then::TakeOff { height_m });
                 return End::Later;
             }
             Mode::Mission => return self.start_mission(now, station, command, None),
-            Mode::Return | Mode::Position if !self.is_airborne() => return NOT_NOW,
+            Mode::Return | Mode::Position if !self.is_airborne() => {
+                return self.not_now(format_args!("mode {}: take off first", mode.name()));
+            }
             Mode::Return if self.mode() == Mode::Return => return ACCEPTED,
-            Mode::Return if self.mode() == Mode::Land => return NOT_NOW,
+            Mode::Return if self.mode() == Mode::Land => {
+                return self.not_now(format_args!("no return: it lands"));
+            }
             Mode::Return => {
                 self.fly_home(now, station, command);
                 return End::Later;
             }
-            Mode::Position | Mode::Offboard if self.is_others(station) => return NOT_NOW,
+            Mode::Position | Mode::Offboard if self.leaves_to_others(station) => return NOT_NOW,
             Mode::Position | Mode::Offboard => {
                 let by = station.operator();
                 let source =
                     if mode == Mode::Position { Source::Sticks } else { Source::Setpoints };
                 let Some(setpoint) = self.following.fresh(now, source, by) else {
-                    self.warn(format_args!("no fresh set-points or sticks to follow"));
-                    return DENIED;
+                    let why = format_args!("no fresh set-points or sticks to follow");
+                    return self.denied(why);
                 };
                 if self.mode() == mode && self.following.followed() == Some((source, by)) {
                     return ACCEPTED;
@@ -366,14 +382,14 @@ impl MavlinkVehicle {
     ) -> End {
         let count = self.transfer.items().len();
         if count == 0 {
-            self.warn(format_args!("there is no mission"));
-            return DENIED;
+            // QGroundControl offers one that it sent before the vehicle was restarted.
+            return self.denied(format_args!("there is no mission: upload it (again)"));
         }
         if let Some(first) = first.filter(|first| usize::from(*first) >= count) {
-            self.warn(format_args!("there is no item {first}: the last is {}", count - 1));
-            return DENIED;
+            let last = count - 1;
+            return self.denied(format_args!("there is no item {first}: the last is {last}"));
         }
-        if self.is_others(station) {
+        if self.leaves_to_others(station) {
             return NOT_NOW;
         }
         if !self.is_flying() {
@@ -384,7 +400,7 @@ impl MavlinkVehicle {
             return End::Later;
         }
         if !self.is_airborne() || self.mode() == Mode::Land {
-            return NOT_NOW;
+            return self.not_now(format_args!("no mission now: it takes off or lands"));
         }
         if self.flies_stored_mission() {
             let paused = self.present().is_some_and(|status| status.mission_waits);
@@ -422,9 +438,9 @@ impl MavlinkVehicle {
         seq: u16,
     ) -> End {
         if usize::from(seq) >= self.transfer.items().len() {
-            return DENIED;
+            return self.denied(format_args!("there is no item {seq}"));
         }
-        if self.is_others(station) {
+        if self.leaves_to_others(station) {
             return NOT_NOW;
         }
         let flies = self.flies_stored_mission();
@@ -439,45 +455,6 @@ impl MavlinkVehicle {
             self.flown.forget();
         }
         ACCEPTED
-    }
-
-    fn reposition(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
-        let frame = asked.frame.unwrap_or(GLOBAL);
-        let place = match self.origin.place(frame, asked.x, asked.y, asked.z) {
-            Ok(place) => place,
-            Err(error) => {
-                self.warn(format_args!("{error}"));
-                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
-            }
-        };
-        let limits = self.config.limits;
-        // A height of a tenth of a millimetre beyond is one that was rounded.
-        let (low_m, high_m) = (limits.floor_m - 1e-3, limits.ceiling_m + 1e-3);
-        let outside = place
-            .ground_m
-            .is_some_and(|(x_m, y_m)| limits.border.outside_m([x_m, y_m].into()) > GRID_M);
-        if outside || place.z_m.is_some_and(|z_m| !(low_m..=high_m).contains(&z_m)) {
-            self.warn(format_args!(
-                "outside the fence: {}, {} to {} m high",
-                limits.border, limits.floor_m, limits.ceiling_m
-            ));
-            return DENIED;
-        }
-        if !self.is_airborne() {
-            return NOT_NOW;
-        }
-        let yaw_deg = asked.parameter(4).map(|yaw_rad| self.origin.yaw_deg(yaw_rad.into()));
-        let to = Place {
-            x_m: place.ground_m.map(|(x_m, _)| x_m),
-            y_m: place.ground_m.map(|(_, y_m)| y_m),
-            height_m: place.z_m.map(|z_m| z_m.clamp(limits.floor_m, limits.ceiling_m)),
-            yaw_deg,
-        };
-        // QGroundControl's pause is a way to nowhere.
-        let order =
-            if to == Place::default() { OperatorOrder::Hold } else { OperatorOrder::GoTo(to) };
-        self.order(now, station, Some(asked.command), After::Nothing, [order]);
-        End::Later
     }
 }
 

@@ -8,6 +8,7 @@ mod arming;
 mod commands;
 mod flown;
 mod following;
+mod guided;
 mod modes;
 mod orders;
 mod parameters;
@@ -174,6 +175,10 @@ impl MavlinkVehicle {
 
     fn say(&mut self, severity: MavSeverity, text: std::fmt::Arguments<'_>) {
         self.texts.say(severity, text);
+    }
+
+    fn error(&mut self, text: std::fmt::Arguments<'_>) {
+        self.say(MavSeverity::MAV_SEVERITY_ERROR, text);
     }
 
     fn warn(&mut self, text: std::fmt::Arguments<'_>) {

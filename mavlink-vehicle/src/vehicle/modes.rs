@@ -48,15 +48,10 @@ impl Mode {
         }
     }
 
-    /// The mode of a main mode and a sub-mode; nothing for those that this vehicle does not have.
-    pub(crate) fn from_parts(main: u8, sub: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|mode| mode.parts() == (main, sub))
-    }
-
     /// PX4's `custom_mode`.
     pub(crate) fn custom(self) -> u32 {
         let (main, sub) = self.parts();
-        u32::from(main) << 16 | u32::from(sub) << 24
+        of_parts(main, sub)
     }
 
     /// The mode of a `custom_mode`.
@@ -98,6 +93,34 @@ impl Mode {
     pub(crate) fn is_automatic(self) -> bool {
         !matches!(self, Self::Position | Self::Offboard)
     }
+}
+
+/// PX4's `custom_mode` of a main mode and a sub-mode.
+pub(crate) fn of_parts(main: u8, sub: u8) -> u32 {
+    u32::from(main) << 16 | u32::from(sub) << 24
+}
+
+/// The names of all modes of this vehicle.
+pub(crate) fn names() -> [&'static str; Mode::ALL.len()] {
+    Mode::ALL.map(Mode::name)
+}
+
+/// The name in QGroundControl of a mode of PX4's that this vehicle does not have.
+pub(crate) fn name_of_px4(custom: u32) -> Option<&'static str> {
+    let [_, _, main, sub] = custom.to_le_bytes();
+    Some(match (main, sub) {
+        (1, _) => "Manual",
+        (2, _) => "Altitude",
+        (3, 1) => "Orbit",
+        (4, 1) => "Ready",
+        (4, 8) => "Follow Me",
+        (4, 9) => "Precision Land",
+        (5, _) => "Acro",
+        (7, _) => "Stabilized",
+        (8, _) => "Rattitude",
+        (9, _) => "Simple",
+        _ => return None,
+    })
 }
 
 /// What the mission that the vehicle flies was made for.
@@ -183,7 +206,7 @@ mod tests {
     #[test]
     fn other_numbers_are_no_mode() {
         for (main, sub) in [(4, 0), (4, 1), (5, 0), (9, 0), (0, 0), (1, 0), (6, 1)] {
-            assert_eq!(Mode::from_parts(main, sub), None, "{main} {sub}");
+            assert_eq!(Mode::from_custom(of_parts(main, sub)), None, "{main} {sub}");
         }
     }
 }

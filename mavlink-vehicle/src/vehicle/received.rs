@@ -6,7 +6,6 @@ use autopilot::vehicle::{OperatorOrder, Setpoint};
 use mavlink_core::types::CharArray;
 
 use super::commands::{Asked, End};
-use super::modes::Mode;
 use super::parameters::NotSet;
 use super::setpoints::{NoSetpoint, global, local};
 use super::stations::Station;
@@ -129,11 +128,11 @@ impl MavlinkVehicle {
         // It is acknowledged like the command that has taken its place.
         let command = MavCmd::MAV_CMD_DO_SET_MODE as u16;
         let custom = data.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
-        let mode = if custom { Mode::from_custom(data.custom_mode) } else { None };
+        let mode = custom.then_some(data.custom_mode);
         let end = if self.config.view_only {
             End::Now(MavResult::MAV_RESULT_DENIED)
         } else {
-            self.change_mode(now, station, command, mode)
+            self.change_custom_mode(now, station, command, mode)
         };
         if let End::Now(result) = end {
             self.acknowledge(station, command, result);

@@ -251,7 +251,7 @@ fn arming_passes_and_needs_a_ready_drone() {
         .handle(bench.now, Input::Telemetry(&Telemetry::Readiness([NotReady::NoDrone].into())));
     bench.refuses(400, first(1.0));
     bench.pass(SECOND);
-    assert!(bench.said("not ready"));
+    assert!(bench.said("PreArm: "));
 }
 
 #[test]
