@@ -38,6 +38,29 @@ pub(crate) const TAKE_OFF_HEIGHT: &str = "MIS_TAKEOFF_ALT";
 /// Horizontal speed in missions that set none, in m/s.
 pub(crate) const CRUISE_SPEED: &str = "MPC_XY_CRUISE";
 
+/// Silence of set-points or sticks after which the drone holds, in seconds.
+const SILENT_S: f32 = 0.5;
+/// What PX4's pages of QGroundControl's Vehicle Setup name.
+const MAGNETOMETERS: [&str; 3] = ["CAL_MAG0_ID", "CAL_MAG1_ID", "CAL_MAG2_ID"];
+const ROTATIONS: [&str; 3] = ["CAL_MAG0_ROT", "CAL_MAG1_ROT", "CAL_MAG2_ROT"];
+const CHANNELS: [&str; 7] = [
+    "RC_MAP_ROLL",
+    "RC_MAP_PITCH",
+    "RC_MAP_YAW",
+    "RC_MAP_THROTTLE",
+    "RC_MAP_FLAPS",
+    "RC_MAP_AUX1",
+    "RC_MAP_AUX2",
+];
+const MODE_SWITCHES: [&str; 6] = [
+    "COM_FLTMODE1",
+    "COM_FLTMODE2",
+    "COM_FLTMODE3",
+    "COM_FLTMODE4",
+    "COM_FLTMODE5",
+    "COM_FLTMODE6",
+];
+
 impl Parameters {
     #[allow(clippy::cast_possible_truncation, reason = "parameters are f32")]
     pub(crate) fn new(config: &Config) -> Self {
@@ -63,7 +86,7 @@ impl Parameters {
             fixed("GCS_TELL_S", 3.0),
             fixed("GCS_HOLD_S", seconds(config.station.hold_after)),
             fixed("GCS_LAND_S", seconds(config.station.land_after)),
-            fixed("SP_HOLD_S", 0.5),
+            fixed("SP_HOLD_S", SILENT_S),
             fixed("SP_LAND_S", 10.5),
         ];
         if config.autopilot == Autopilot::Px4 {
@@ -91,7 +114,32 @@ impl Parameters {
                 fixed("MPC_Z_VEL_ALL", -3.0),
                 fixed("SYS_VEHICLE_RESP", -0.4),
                 fixed("RTL_LAND_DELAY", 0.0),
+                fixed("SYS_AUTOCONFIG", 0.0),
+                fixed("MAV_SYS_ID", f32::from(config.system)),
+                // It returns at the height that it has, which is never below its floor.
+                fixed("RTL_RETURN_ALT", low_m),
+                fixed("RTL_DESCEND_ALT", low_m),
+                // Sticks that fall silent: 1 is hold.
+                fixed("COM_RC_LOSS_T", SILENT_S),
+                fixed("NAV_RCL_ACT", 1.0),
+                // Three cells of lithium polymer.
+                fixed("BAT1_N_CELLS", 3.0),
+                fixed("BAT1_V_EMPTY", 3.3),
+                fixed("BAT1_V_CHARGED", 4.15),
+                fixed("SENS_DPRES_OFF", 0.0),
+                fixed("SENS_BOARD_ROT", 0.0),
+                fixed("SDLOG_MODE", -1.0),
+                fixed("CP_DIST", -1.0),
+                fixed("COM_OBS_AVOID", 0.0),
             ]);
+            // Of none of these there is one: no compass that could be calibrated from here, no radio control, no mode switch.
+            let none = |names: &'static [&'static str], value| {
+                names.iter().map(move |name| Parameter { name, value, range: None })
+            };
+            all.extend(none(&MAGNETOMETERS, 0.0));
+            all.extend(none(&ROTATIONS, -1.0));
+            all.extend(none(&CHANNELS, 0.0));
+            all.extend(none(&MODE_SWITCHES, -1.0));
         }
         Self(all)
     }

@@ -47,7 +47,8 @@ impl Schedule {
             (74, 250),
             (85, 0),
             (132, 180),
-            (141, 1000),
+            // QGroundControl shows no other height once it has heard one of these.
+            (141, 180),
             (147, 1000),
             (148, 0),
             (230, 1000),
