@@ -93,7 +93,9 @@ impl MavlinkVehicle {
     pub(super) fn armed_by(&mut self, now: Duration, by: Operator) {
         self.arming.armed = Some((now + ARMED_TIME, by));
         self.arming.controls = Some(Controls(Some(by)));
-        self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
+        let [system, component] = by.number.to_be_bytes();
+        let info = MavSeverity::MAV_SEVERITY_INFO;
+        self.say(info, format_args!("armed by station {system}.{component}"));
         // Whoever takes the controls does not expect that another's take-off follows.
         let pending = self.arming.pending.take();
         if let Some(pending) = pending.filter(|pending| pending.station.operator() == by) {
@@ -148,7 +150,7 @@ impl MavlinkVehicle {
     pub(super) fn watch_arming(&mut self, now: Duration) {
         if self.arming.pending.is_some_and(|pending| now >= pending.until) {
             self.arming.give_up();
-            self.warn(format_args!("not armed in time: the take-off is given up"));
+            self.error(format_args!("not armed in time: the take-off is given up"));
         }
         if self.arming.armed.is_some_and(|(until, _)| now >= until) {
             self.warn(format_args!("disarmed: no take-off followed"));

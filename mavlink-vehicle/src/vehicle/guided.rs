@@ -75,6 +75,13 @@ impl MavlinkVehicle {
         own_m
     }
 
+    /// Whether the drone is above its ceiling by no more than one that is sent there.
+    pub(super) fn is_a_little_high(&self) -> bool {
+        let high_m = self.config.limits.ceiling_m;
+        let height_m = self.present().and_then(|status| status.pose).map(|pose| pose.z_m);
+        height_m.is_some_and(|height_m| (high_m..=high_m + MOVED_M).contains(&height_m))
+    }
+
     pub(super) fn reposition(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
         let frame = asked.frame.unwrap_or(GLOBAL);
         let place = match self.origin.place(frame, asked.x, asked.y, asked.z) {

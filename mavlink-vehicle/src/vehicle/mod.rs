@@ -10,8 +10,10 @@ mod flown;
 mod following;
 mod guided;
 mod modes;
+mod numbers;
 mod orders;
 mod parameters;
+mod prearm;
 mod protocol;
 mod received;
 mod schedule;
@@ -28,12 +30,15 @@ use autopilot::vehicle::{
     FlightEvent, NotReady, Operator, OperatorOrder, Station as Kind, Status, Telemetry,
 };
 
+use autopilot::safety::Veto;
+
 use self::arming::Arming;
 use self::flown::Flown;
 use self::following::{Following, Source};
 use self::modes::{Doing, Mode};
 use self::orders::Awaited;
 use self::parameters::Parameters;
+use self::prearm::Prearm;
 pub use self::protocol::{Autopilot, Config, Input, Output, Ticket, To};
 use self::schedule::Schedule;
 use self::stations::Stations;
@@ -67,6 +72,7 @@ pub struct MavlinkVehicle {
     status: Option<(Duration, Status)>,
     /// Why the vehicle cannot take off; `None` until that is known, empty if it can.
     not_ready: Option<ArrayString<150>>,
+    prearm: Prearm,
     stations: Stations,
     schedule: Schedule,
     parameters: Parameters,
@@ -96,6 +102,7 @@ impl MavlinkVehicle {
             texts: Texts::default(),
             status: None,
             not_ready: None,
+            prearm: Prearm::default(),
             stations: Stations::default(),
             schedule: Schedule::new(&config),
             parameters,
@@ -140,6 +147,7 @@ impl MavlinkVehicle {
             self.transferred(partner, &handled);
         }
         if self.has_news(now) {
+            self.tell_prearm(now);
             self.tell(now);
         }
     }
@@ -220,6 +228,9 @@ impl MavlinkVehicle {
             // What does not fit is cut.
             _ = std::fmt::Write::write_fmt(&mut text, format_args!("{separator}{reason}"));
         }
+        if self.not_ready != Some(text) {
+            self.prearm = Prearm::default();
+        }
         self.not_ready = Some(text);
     }
 
@@ -237,14 +248,15 @@ impl MavlinkVehicle {
             }
             _ => {}
         }
-        let severity = match event {
-            FlightEvent::Emergency | FlightEvent::LinkLost | FlightEvent::CutOrdered => {
-                MavSeverity::MAV_SEVERITY_CRITICAL
-            }
-            event if event.warns() => MavSeverity::MAV_SEVERITY_WARNING,
-            _ => MavSeverity::MAV_SEVERITY_INFO,
-        };
-        self.say(severity, format_args!("{event}"));
+        if *event == FlightEvent::Veto(Veto::TargetOutside) && self.is_a_little_high() {
+            // It holds where it is, which nobody has asked for.
+            return;
+        }
+        if matches!(event, FlightEvent::LinkLost) && !self.is_flying() {
+            // Nothing lands that is on the ground.
+            return self.warn(format_args!("link lost"));
+        }
+        self.say(texts::severity(event), format_args!("{event}"));
     }
 
     /// Whether a flight goes on or is about to begin.

@@ -137,8 +137,8 @@ impl MavlinkVehicle {
             && !(awaited.may_fly && *refused == Refused::Flying)
         {
             if awaited.result == MavResult::MAV_RESULT_ACCEPTED {
-                self.texts
-                    .say(MavSeverity::MAV_SEVERITY_WARNING, format_args!("refused: {refused}"));
+                let error = MavSeverity::MAV_SEVERITY_ERROR;
+                self.texts.say(error, format_args!("refused: {refused}"));
             }
             awaited.result = result_of(refused);
         }
@@ -194,7 +194,7 @@ impl MavlinkVehicle {
         let steps = self.transfer.translated().steps_from(first, self.is_airborne());
         if steps.is_empty() {
             self.arming.not_begun();
-            self.warn(format_args!("there is no mission, or nothing is left of it"));
+            self.error(format_args!("there is no mission, or nothing is left of it"));
             return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
         }
         // The next time it begins with its first item again.
@@ -223,7 +223,7 @@ impl MavlinkVehicle {
             Ok(commands) => commands,
             Err(error) => {
                 self.arming.not_begun();
-                self.warn(format_args!("{error}"));
+                self.error(format_args!("{error}"));
                 return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
             }
         };

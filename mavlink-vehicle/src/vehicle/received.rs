@@ -157,6 +157,23 @@ impl MavlinkVehicle {
         };
         // All are told the value that is kept.
         self.tell_parameter(To::All, index);
+        let named = name.to_str().unwrap_or_default();
+        // QGroundControl does not hear PARAM_ERROR: its field snaps back without a word.
+        match set {
+            Ok(()) => {}
+            Err(NotSet::Unknown) => self.error(format_args!("there is no parameter {named}")),
+            Err(NotSet::OutOfRange) => {
+                self.error(format_args!("{named} not changed: {value} is outside its range"));
+            }
+            Err(NotSet::ReadOnly) if self.config.view_only => {
+                self.error(format_args!("{named} not changed: view only"));
+            }
+            Err(NotSet::ReadOnly) if self.is_others(station) => {
+                self.error(format_args!("{named} not changed: somebody else has the controls"));
+            }
+            Err(NotSet::ReadOnly) => self
+                .error(format_args!("{named} not changed: it is read-only here, see pilot.toml")),
+        }
         let error = match set {
             Ok(()) => return,
             Err(NotSet::Unknown) => MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
@@ -186,18 +203,18 @@ impl MavlinkVehicle {
     /// The origin can be set on the ground; a stored mission that no longer fits is removed.
     fn set_origin(&mut self, station: Station, origin: Origin) {
         if self.config.view_only || self.is_armed() || self.is_others(station) {
-            return self.warn(format_args!("the origin is not set: disarm first"));
+            return self.error(format_args!("the origin is not set: disarm first"));
         }
         let origin = match origin.checked() {
             Ok(origin) => origin,
-            Err(error) => return self.warn(format_args!("{error}")),
+            Err(error) => return self.error(format_args!("{error}")),
         };
         self.origin = origin;
         let rules = self.rules();
         if let Err(problem) = self.transfer.translate_again(&rules) {
             self.transfer.clear();
             self.flown.begin_at(0);
-            self.warn(format_args!("mission removed: {}", problem.reason));
+            self.error(format_args!("mission removed: {}", problem.reason));
         }
         for id in [49, 242] {
             self.answer_request(To::All, id, 0);
@@ -276,7 +293,7 @@ impl MavlinkVehicle {
         let changes = matches!(received, Received::Count { .. } | Received::ClearAll { .. })
             && received.mission_type() != FENCE;
         if changes && let Some(why) = self.may_not_change(station) {
-            self.warn(format_args!("mission not changed: {why}"));
+            self.error(format_args!("mission not changed: {why}"));
             let mission_type = received.mission_type();
             let message = Message::Ack { result: result::DENIED, mission_type };
             return self.send_of_mission(partner, message);
@@ -312,8 +329,12 @@ impl MavlinkVehicle {
                 self.flown.begin_at(0);
                 // What waits was ordered for another.
                 self.arming.give_up();
-                let count = self.transfer.items().len();
-                self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("mission of {count} items"));
+                let info = MavSeverity::MAV_SEVERITY_INFO;
+                match self.transfer.items().len() {
+                    0 => self.say(info, format_args!("mission removed")),
+                    1 => self.say(info, format_args!("mission of 1 item")),
+                    count => self.say(info, format_args!("mission of {count} items")),
+                }
                 let limited = self.transfer.translated().limited();
                 for note in limited.iter().take(NOTES) {
                     self.texts.say(MavSeverity::MAV_SEVERITY_WARNING, format_args!("{note}"));
@@ -324,14 +345,16 @@ impl MavlinkVehicle {
                 }
                 self.answer_request(To::All, 42, 0);
             }
-            Event::Refused(problem) => self.warn(format_args!("{}", problem.reason)),
+            Event::Refused(problem) => {
+                self.error(format_args!("mission refused: {}", problem.reason));
+            }
             Event::FenceStays => {
-                self.warn(format_args!(
+                self.error(format_args!(
                     "fence not changed: it is set where the vehicle is started"
                 ));
             }
             Event::Cancelled => {
-                self.warn(format_args!("upload given up; the mission is unchanged"));
+                self.error(format_args!("upload given up; the mission is unchanged"));
             }
         }
     }

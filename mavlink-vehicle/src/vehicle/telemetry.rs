@@ -1,5 +1,7 @@
 //! What the vehicle tells.
 
+mod progress;
+
 use std::time::Duration;
 
 use autopilot::agent::LANDING_BATTERY_PERCENT;
@@ -16,11 +18,10 @@ use crate::dialect::{
     AVAILABLE_MODES_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, DISTANCE_SENSOR_DATA,
     ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, GLOBAL_POSITION_INT_DATA,
     GPS_GLOBAL_ORIGIN_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, HOME_POSITION_DATA,
-    LOCAL_POSITION_NED_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState,
-    MavDistanceSensor, MavLandedState, MavMessage, MavModeFlag, MavModeProperty,
-    MavProtocolCapability, MavSensorOrientation, MavState, MavSysStatusSensor, MavType,
-    MissionState, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA, PositionTargetTypemask,
-    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
+    LOCAL_POSITION_NED_DATA, MavAutopilot, MavBatteryChargeState, MavDistanceSensor, MavMessage,
+    MavModeFlag, MavModeProperty, MavProtocolCapability, MavSensorOrientation, MavState,
+    MavSysStatusSensor, MavType, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA,
+    PositionTargetTypemask, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
 };
 
 impl MavlinkVehicle {
@@ -223,14 +224,16 @@ impl View<'_> {
         // In flight the checks before it have been passed.
         let ready = self.vehicle.is_flying()
             || self.vehicle.not_ready.is_some_and(|reasons| reasons.is_empty());
-        health.set(Sensor::MAV_SYS_STATUS_PREARM_CHECK, ready && !self.status.emergency);
+        // A drone whose motors were cut in the air falls, before it says so.
+        let falls = self.status.airborne && !self.vehicle.is_flying();
+        let ready = ready && !self.status.emergency && !falls;
+        health.set(Sensor::MAV_SYS_STATUS_PREARM_CHECK, ready);
         let percent = self.status.battery_percent.and_then(|percent| i8::try_from(percent).ok());
         SYS_STATUS_DATA {
             onboard_control_sensors_present: present,
             onboard_control_sensors_enabled: present,
             onboard_control_sensors_health: health,
-            // Not known.
-            voltage_battery: u16::MAX,
+            voltage_battery: self.battery_mv(),
             current_battery: -1,
             battery_remaining: percent.unwrap_or(-1),
             ..SYS_STATUS_DATA::default()
@@ -239,11 +242,14 @@ impl View<'_> {
 
     fn battery(&self) -> Option<BATTERY_STATUS_DATA> {
         let percent = self.status.battery_percent?;
+        // Cells are not measured one by one: the voltage of all is that of the first, as the message says it.
+        let mut voltages = [u16::MAX; 10];
+        voltages[0] = self.battery_mv();
         Some(BATTERY_STATUS_DATA {
             current_consumed: -1,
             energy_consumed: -1,
             temperature: i16::MAX,
-            voltages: [u16::MAX; 10],
+            voltages,
             current_battery: -1,
             battery_remaining: i8::try_from(percent).unwrap_or(100),
             charge_state: if percent <= LANDING_BATTERY_PERCENT {
@@ -268,11 +274,28 @@ impl View<'_> {
         Some([roll_deg.to_radians(), pitch_deg.to_radians(), yaw_rad])
     }
 
+    /// Clockwise from above, in rad/s; 0 if it is not known.
+    fn yaw_rate_rad_s(&self) -> f32 {
+        f32_of(self.status.turn_rate_deg_s.unwrap_or_default().to_radians())
+    }
+
+    /// The battery's voltage in mV; the largest integer if it is not known.
+    fn battery_mv(&self) -> u16 {
+        self.status.battery_v.map_or(u16::MAX, |battery_v| u16_of(battery_v * 1e3))
+    }
+
     fn attitude(&self) -> Option<ATTITUDE_DATA> {
         let [roll, pitch, yaw] = self.angles_rad()?.map(f32_of);
-        let time_boot_ms = self.ms();
-        // Rates are not estimated.
-        Some(ATTITUDE_DATA { time_boot_ms, roll, pitch, yaw, ..ATTITUDE_DATA::default() })
+        // Of the rates only this one is estimated. The heading turns without the tilt, as a small one nearly does.
+        let yawspeed = self.yaw_rate_rad_s();
+        Some(ATTITUDE_DATA {
+            time_boot_ms: self.ms(),
+            roll,
+            pitch,
+            yaw,
+            yawspeed,
+            ..ATTITUDE_DATA::default()
+        })
     }
 
     fn quaternion(&self) -> Option<ATTITUDE_QUATERNION_DATA> {
@@ -284,6 +307,7 @@ impl View<'_> {
             q2: f32_of(turned.i),
             q3: f32_of(turned.j),
             q4: f32_of(turned.k),
+            yawspeed: self.yaw_rate_rad_s(),
             ..ATTITUDE_QUATERNION_DATA::default()
         })
     }
@@ -455,53 +479,6 @@ impl View<'_> {
             pos_vert_accuracy: f32_of(self.status.vertical_deviation_m),
             flags,
             ..ESTIMATOR_STATUS_DATA::default()
-        }
-    }
-
-    fn landed(&self) -> MavLandedState {
-        match (self.status.phase, self.vehicle.mode()) {
-            (Phase::Connecting, _) => MavLandedState::MAV_LANDED_STATE_UNDEFINED,
-            _ if !self.status.airborne && self.status.command != Some("TakeOff") => {
-                MavLandedState::MAV_LANDED_STATE_ON_GROUND
-            }
-            _ if self.status.command == Some("TakeOff") => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
-            (_, Mode::Land) => MavLandedState::MAV_LANDED_STATE_LANDING,
-            _ => MavLandedState::MAV_LANDED_STATE_IN_AIR,
-        }
-    }
-
-    fn mission(&self) -> MISSION_CURRENT_DATA {
-        let vehicle = self.vehicle;
-        let total = vehicle.transfer.items().len();
-        let flown = vehicle.flown.is_stored(vehicle.transfer.id());
-        // Between two steps, and while it is paused there, it is the one before.
-        let step = vehicle.flown.item().filter(|_| flown);
-        let complete = flown && vehicle.flown.is_complete();
-        let last = u16::try_from(total.saturating_sub(1)).unwrap_or_default();
-        let state = if total == 0 {
-            MissionState::MISSION_STATE_NO_MISSION
-        } else if complete {
-            MissionState::MISSION_STATE_COMPLETE
-        } else if !flown || !vehicle.is_flying() {
-            MissionState::MISSION_STATE_NOT_STARTED
-        } else if self.status.mission_waits {
-            MissionState::MISSION_STATE_PAUSED
-        } else {
-            MissionState::MISSION_STATE_ACTIVE
-        };
-        let seq = match (step, complete) {
-            (Some(item), _) => item,
-            (None, true) => last,
-            (None, false) => vehicle.flown.first_item(),
-        };
-        MISSION_CURRENT_DATA {
-            seq,
-            total: if total == 0 { u16::MAX } else { u16::try_from(total).unwrap_or(u16::MAX) },
-            mission_state: state,
-            // Not known.
-            mission_mode: 0,
-            mission_id: vehicle.transfer.id(),
-            ..MISSION_CURRENT_DATA::default()
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The vehicle as its clients see it.
 
+mod qgroundcontrol;
+
 use autopilot::plan::Command;
 use autopilot::vehicle::{
     ManualControl, Phase, Place, Station as Kind, Telemetry, Vehicle, VehicleConfig,

@@ -5,6 +5,7 @@ use std::fmt;
 use std::fmt::Write as _;
 
 use arrayvec::ArrayString;
+use autopilot::vehicle::{FlightEvent, LandingReason};
 use mavlink_core::types::CharArray;
 
 use crate::dialect::{MavMessage, MavSeverity, STATUSTEXT_DATA};
@@ -15,6 +16,26 @@ const WAITING: usize = 16;
 const CHUNK: usize = 50;
 /// Bytes of a text: four chunks.
 const LONGEST: usize = 4 * CHUNK;
+
+/// How important an event is. QGroundControl shows what is at least an error; of a warning a red icon is all that is seen.
+pub(crate) fn severity(event: &FlightEvent) -> MavSeverity {
+    match event {
+        FlightEvent::LandingOrdered(LandingReason::Operator) => MavSeverity::MAV_SEVERITY_INFO,
+        FlightEvent::Emergency
+        | FlightEvent::LinkLost
+        | FlightEvent::CutOrdered
+        | FlightEvent::LandingOrdered(_) => MavSeverity::MAV_SEVERITY_CRITICAL,
+        // The drone does not what it was told to, or soon will not.
+        FlightEvent::BatteryLow { .. }
+        | FlightEvent::FlownByAnother
+        | FlightEvent::ControlsTaken { .. }
+        | FlightEvent::SetpointsSilent
+        | FlightEvent::PausedForStation
+        | FlightEvent::PlaceContradicted { .. } => MavSeverity::MAV_SEVERITY_ERROR,
+        event if event.warns() => MavSeverity::MAV_SEVERITY_WARNING,
+        _ => MavSeverity::MAV_SEVERITY_INFO,
+    }
+}
 
 /// A queue of texts. It does not allocate once it was created.
 #[derive(Debug)]
@@ -47,7 +68,7 @@ impl fmt::Write for Cut<'_> {
 }
 
 impl Texts {
-    /// Queues a text; dropped if too many wait.
+    /// Queues a text; dropped if too many wait, or the very same.
     pub(crate) fn say(&mut self, severity: MavSeverity, text: fmt::Arguments<'_>) {
         if self.waiting.len() >= WAITING {
             return;
@@ -55,6 +76,9 @@ impl Texts {
         let mut cut = ArrayString::new();
         // An error means that it was cut.
         _ = Cut(&mut cut).write_fmt(text);
+        if self.waiting.contains(&(severity, cut)) {
+            return;
+        }
         self.waiting.push_back((severity, cut));
     }
 
@@ -115,8 +139,9 @@ mod tests {
     fn floods_and_endless_texts_are_cut() {
         let mut texts = Texts::default();
         let endless = "ä".repeat(1000);
-        for _ in 0..100 {
-            texts.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("{endless}"));
+        for number in 0..100 {
+            texts.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("{number:02}{endless}"));
+            texts.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("{number:02}{endless}"));
         }
         assert_eq!(said(&mut texts).len(), WAITING * 5);
     }
