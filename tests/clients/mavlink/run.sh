@@ -78,6 +78,8 @@ corners stations "" stations,terminate
 corners noise ""
 corners view_only "--mavlink-view-only"
 corners px4 "--mavlink-as px4"
+corners qgroundcontrol "--mavlink-as px4" qgroundcontrol,cut
+corners lossy ""
 corners signing "--mavlink-key $work/key"
 
 passed=0 failed=0

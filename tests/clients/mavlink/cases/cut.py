@@ -3,7 +3,7 @@
 import time
 
 import flying
-from flying import ARM, CUT_MAGIC, NAV_TAKEOFF, expect_accepted
+from flying import ARM, CUT_MAGIC, NAV_TAKEOFF, READY_BIT, expect_accepted
 
 
 def test_the_magic_number_cuts_the_motors_in_flight(station):
@@ -16,6 +16,10 @@ def test_the_magic_number_cuts_the_motors_in_flight(station):
     flying.wait_armed(station, False, 5, asked_s)
     beat = station.wait("HEARTBEAT", 2)
     assert beat.system_status in (5, 6), f"system_status {beat.system_status} after the cut"
+    # QGroundControl shows "Ready To Fly" by this bit, and the reason by a text that begins so.
+    ready = [told for told in station.since(asked_s + 0.3, "SYS_STATUS") if told.onboard_control_sensors_health & READY_BIT]
+    assert not ready, "ready to fly while it falls"
+    station.wait("STATUSTEXT", 8, lambda told: told.text.startswith("PreArm: "), asked_s)
 
 
 def test_after_a_cut_nothing_starts(station):
