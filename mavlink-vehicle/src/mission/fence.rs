@@ -3,6 +3,7 @@
 use autopilot::plan::Shape;
 
 use super::{Item, Rules};
+use crate::place::Global;
 
 /// `MAV_MISSION_TYPE`.
 pub(crate) const FENCE: u8 = 1;
@@ -12,6 +13,9 @@ const POLYGON_CORNER: u16 = 5001;
 const CIRCLE: u16 = 5003;
 /// `MAV_FRAME_GLOBAL`
 const GLOBAL: u8 = 0;
+
+/// What is no further from the vehicle's own, in metres, is the same.
+const SAME_M: f32 = 0.05;
 
 /// How many items the fence has.
 pub(crate) fn count(rules: &Rules) -> u16 {
@@ -50,12 +54,23 @@ pub(crate) fn item(seq: u16, rules: &Rules) -> Option<Item> {
     })
 }
 
+/// Whether an item is that of the vehicle's fence, as far as one that has travelled can be told from it.
+pub(crate) fn is_same(sent: &Item, rules: &Rules) -> bool {
+    let Some(own) = item(sent.seq, rules) else { return false };
+    let metres =
+        |item: &Item| rules.origin.ground_m(Global { latitude_e7: item.x, longitude_e7: item.y });
+    let ((x_m, y_m), (own_x_m, own_y_m)) = (metres(sent), metres(&own));
+    (sent.command, sent.frame) == (own.command, own.frame)
+        && (sent.param1 - own.param1).abs() <= SAME_M
+        && (x_m - own_x_m).hypot(y_m - own_y_m) <= f64::from(SAME_M)
+}
+
 #[cfg(test)]
 mod tests {
     use autopilot::plan::{Border, FlightLimits};
 
     use super::*;
-    use crate::place::{Global, Origin};
+    use crate::place::Origin;
 
     fn rules(border: &Border) -> Rules {
         let fence = FlightLimits::new(*border, 0.3, 3.0);

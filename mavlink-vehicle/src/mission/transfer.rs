@@ -73,8 +73,8 @@ impl Received {
 pub(crate) enum Message {
     /// `MISSION_COUNT`
     Count { count: u16, mission_type: u8 },
-    /// `MISSION_REQUEST_INT`, of a mission.
-    Request { seq: u16 },
+    /// `MISSION_REQUEST_INT`
+    Request { seq: u16, mission_type: u8 },
     /// `MISSION_ITEM_INT`
     Item(Item),
     /// `MISSION_ACK`
@@ -90,8 +90,10 @@ pub(crate) enum Event {
     Cleared,
     /// A new one was refused; the stored one is unchanged.
     Refused(Problem),
-    /// A fence was sent, or its removal asked for: it stays as it was set.
+    /// Another fence was sent, or its removal asked for: it stays as it was set.
     FenceStays,
+    /// The vehicle's own fence was sent.
+    FenceSame,
     /// An upload was given up; the stored mission is unchanged.
     Cancelled,
 }
@@ -132,6 +134,7 @@ pub(crate) struct Transfer {
     incoming: Vec<Item>,
     upload: Option<Upload>,
     finished: Option<Finished>,
+    fence_upload: Option<FenceUpload>,
     downloads: [Option<Download>; DOWNLOADS],
 }
 
@@ -140,6 +143,16 @@ pub(crate) struct Transfer {
 struct Upload {
     from: Partner,
     count: u16,
+    asked_at: Duration,
+    repeats: u8,
+}
+
+/// A fence that is being sent.
+#[derive(Debug, Clone, Copy)]
+struct FenceUpload {
+    from: Partner,
+    /// The item that it needs next.
+    wanted: u16,
     asked_at: Duration,
     repeats: u8,
 }
@@ -180,6 +193,11 @@ impl Transfer {
     /// Who uploads a mission now.
     pub(crate) fn uploading(&self) -> Option<Partner> {
         self.upload.map(|upload| upload.from)
+    }
+
+    /// Who sends a fence now.
+    pub(crate) fn sending_fence(&self) -> Option<Partner> {
+        self.fence_upload.map(|upload| upload.from)
     }
 
     /// Translates the stored items by other rules, as after a change of the origin.
@@ -224,9 +242,18 @@ impl Transfer {
                 Some(item) => Handled::send(Message::Item(item)),
                 None => Handled::ack(result::INVALID_SEQUENCE, FENCE),
             },
-            Received::Count { mission_type: FENCE, .. }
-            | Received::ClearAll { mission_type: FENCE } => {
+            Received::Count { count, mission_type: FENCE } => {
+                self.fence_count(now, from, count, rules)
+            }
+            Received::Item(item) if mission_type == FENCE => {
+                self.fence_item(now, from, &item, rules)
+            }
+            Received::ClearAll { mission_type: FENCE } => {
                 Handled::ack(result::DENIED, FENCE).with(Event::FenceStays)
+            }
+            Received::Ack { mission_type: FENCE, .. } => {
+                self.fence_upload = self.fence_upload.filter(|upload| upload.from != from);
+                Handled::default()
             }
             Received::Ack { result, mission_type: MISSION | ALL } => {
                 self.acknowledged(from, result)
@@ -257,7 +284,59 @@ impl Transfer {
         }
         upload.repeats += 1;
         upload.asked_at = now;
-        Handled::send(Message::Request { seq })
+        Handled::send(Message::Request { seq, mission_type: MISSION })
+    }
+
+    /// As [`Self::tick`], for a fence that is being sent.
+    pub(crate) fn tick_fence(&mut self, now: Duration) -> Handled {
+        let Some(upload) = &mut self.fence_upload else { return Handled::default() };
+        if now.saturating_sub(upload.asked_at) < REPEAT_AFTER {
+            return Handled::default();
+        }
+        if upload.repeats >= REPEATS {
+            self.fence_upload = None;
+            return Handled::ack(result::OPERATION_CANCELLED, FENCE);
+        }
+        upload.repeats += 1;
+        upload.asked_at = now;
+        Handled::send(Message::Request { seq: upload.wanted, mission_type: FENCE })
+    }
+
+    /// A fence is sent. It is taken if it is the vehicle's own, which a plan has that was read here; one without any items is
+    /// that of a plan without a fence, which `QGroundControl` sends with every plan, and changes nothing either.
+    fn fence_count(&mut self, now: Duration, from: Partner, count: u16, rules: &Rules) -> Handled {
+        self.fence_upload = None;
+        if count == 0 {
+            return Handled::ack(result::ACCEPTED, FENCE);
+        }
+        if count != fence::count(rules) {
+            return Handled::ack(result::DENIED, FENCE).with(Event::FenceStays);
+        }
+        self.fence_upload = Some(FenceUpload { from, wanted: 0, asked_at: now, repeats: 0 });
+        Handled::send(Message::Request { seq: 0, mission_type: FENCE })
+    }
+
+    fn fence_item(&mut self, now: Duration, from: Partner, item: &Item, rules: &Rules) -> Handled {
+        let is_same = fence::is_same(item, rules);
+        let is_last = item.seq.saturating_add(1) >= fence::count(rules);
+        let Some(upload) = self.fence_upload.as_mut().filter(|upload| upload.from == from) else {
+            // The last one again, because the acknowledgement was lost; or one that was doubled or delayed.
+            let again = is_last && is_same;
+            return if again { Handled::ack(result::ACCEPTED, FENCE) } else { Handled::default() };
+        };
+        if item.seq != upload.wanted {
+            return Handled::default();
+        }
+        if !is_same {
+            self.fence_upload = None;
+            return Handled::ack(result::DENIED, FENCE).with(Event::FenceStays);
+        }
+        if is_last {
+            self.fence_upload = None;
+            return Handled::ack(result::ACCEPTED, FENCE).with(Event::FenceSame);
+        }
+        *upload = FenceUpload { wanted: item.seq + 1, asked_at: now, repeats: 0, ..*upload };
+        Handled::send(Message::Request { seq: item.seq + 1, mission_type: FENCE })
     }
 
     /// Removes the mission, and gives up an upload.
@@ -299,7 +378,7 @@ impl Transfer {
         self.incoming.clear();
         self.incoming.reserve_exact(usize::from(count));
         self.upload = Some(Upload { from, count, asked_at: now, repeats: 0 });
-        Handled::send(Message::Request { seq: 0 })
+        Handled::send(Message::Request { seq: 0, mission_type: MISSION })
     }
 
     fn item(&mut self, now: Duration, from: Partner, item: &Item, rules: &Rules) -> Handled {
@@ -313,7 +392,7 @@ impl Transfer {
             // One of the two is from before the partner began anew.
             upload.asked_at = now;
             self.incoming.clear();
-            return Handled::send(Message::Request { seq: 0 });
+            return Handled::send(Message::Request { seq: 0, mission_type: MISSION });
         }
         if item.seq != wanted {
             // The one that is missing is asked for again in time. At once would never end with a partner that counts otherwise.
@@ -325,7 +404,9 @@ impl Transfer {
         let next = wanted + 1;
         let is_last = next >= upload.count;
         let (result, event) = match translate(&self.incoming, from.component, rules) {
-            Ok(_) if !is_last => return Handled::send(Message::Request { seq: next }),
+            Ok(_) if !is_last => {
+                return Handled::send(Message::Request { seq: next, mission_type: MISSION });
+            }
             Ok(translated) => {
                 let items = std::mem::take(&mut self.incoming);
                 self.store(items, from.component, translated);

@@ -146,6 +146,10 @@ impl MavlinkVehicle {
             let handled = self.transfer.tick(now);
             self.transferred(partner, &handled);
         }
+        if let Some(partner) = self.transfer.sending_fence() {
+            let handled = self.transfer.tick_fence(now);
+            self.transferred(partner, &handled);
+        }
         if self.has_news(now) {
             self.tell_prearm(now);
             self.tell(now);

@@ -349,9 +349,13 @@ impl MavlinkVehicle {
                 self.error(format_args!("mission refused: {}", problem.reason));
             }
             Event::FenceStays => {
-                self.error(format_args!(
-                    "fence not changed: it is set where the vehicle is started"
-                ));
+                let border = self.config.limits.border;
+                self.error(format_args!("fence not changed: it is {border}, see pilot.toml"));
+            }
+            Event::FenceSame => {
+                let border = self.config.limits.border;
+                let info = MavSeverity::MAV_SEVERITY_INFO;
+                self.say(info, format_args!("the fence is as before: {border}"));
             }
             Event::Cancelled => {
                 self.error(format_args!("upload given up; the mission is unchanged"));
@@ -373,12 +377,14 @@ impl MavlinkVehicle {
                     opaque_id,
                 })
             }
-            Message::Request { seq } => MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA {
-                seq,
-                target_system,
-                target_component,
-                mission_type: 0,
-            }),
+            Message::Request { seq, mission_type } => {
+                MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA {
+                    seq,
+                    target_system,
+                    target_component,
+                    mission_type,
+                })
+            }
             Message::Item(item) => {
                 MavMessage::MISSION_ITEM_INT(item.to(target_system, target_component))
             }

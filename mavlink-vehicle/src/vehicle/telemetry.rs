@@ -110,6 +110,7 @@ impl MavlinkVehicle {
         use MavProtocolCapability as Can;
         AUTOPILOT_VERSION_DATA {
             capabilities: Can::MAV_PROTOCOL_CAPABILITY_MISSION_INT
+                | Can::MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
                 | Can::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
                 | Can::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
                 | Can::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED

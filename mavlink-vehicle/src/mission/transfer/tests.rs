@@ -69,7 +69,7 @@ impl Bench {
         let number = u16::try_from(items.len()).unwrap();
         let mut last = self.from(QGC, count(number));
         for item in items {
-            assert_eq!(last.0, [Message::Request { seq: item.seq }]);
+            assert_eq!(last.0, [Message::Request { seq: item.seq, mission_type: MISSION }]);
             last = self.from(QGC, Received::Item(*item));
         }
         last
@@ -102,9 +102,12 @@ fn a_silent_partner_is_asked_again_and_then_given_up() {
     bench.from(QGC, count(3));
     bench.from(QGC, Received::Item(mission(2, 3)[0]));
     assert_eq!(bench.after(249), (vec![], None));
-    assert_eq!(bench.after(1), (vec![Message::Request { seq: 1 }], None));
+    assert_eq!(bench.after(1), (vec![Message::Request { seq: 1, mission_type: MISSION }], None));
     for _ in 1..5 {
-        assert_eq!(bench.after(250), (vec![Message::Request { seq: 1 }], None));
+        assert_eq!(
+            bench.after(250),
+            (vec![Message::Request { seq: 1, mission_type: MISSION }], None)
+        );
     }
     let cancelled = (vec![ack(result::OPERATION_CANCELLED)], Some(Event::Cancelled));
     assert_eq!(bench.after(250), cancelled);
@@ -125,7 +128,10 @@ fn each_item_has_its_own_repeats() {
     }
     bench.from(QGC, Received::Item(mission(1, 2)[0]));
     for _ in 0..5 {
-        assert_eq!(bench.after(250), (vec![Message::Request { seq: 1 }], None));
+        assert_eq!(
+            bench.after(250),
+            (vec![Message::Request { seq: 1, mission_type: MISSION }], None)
+        );
     }
 }
 
@@ -163,7 +169,7 @@ fn a_new_count_begins_anew() {
     let mut bench = Bench::default();
     bench.from(QGC, count(3));
     bench.from(QGC, Received::Item(mission(1, 3)[0]));
-    bench.assert(QGC, count(2), &[Message::Request { seq: 0 }]);
+    bench.assert(QGC, count(2), &[Message::Request { seq: 0, mission_type: MISSION }]);
     // The answer to the request before is still under way, which is no reason to fail.
     let late = Received::Item(mission(1, 3)[1]);
     bench.assert(QGC, late, &[]);
@@ -177,12 +183,12 @@ fn a_new_count_begins_anew() {
 fn an_item_of_a_mission_given_up_does_not_stay() {
     let mut bench = Bench::default();
     bench.from(QGC, count(3));
-    bench.assert(QGC, count(2), &[Message::Request { seq: 0 }]);
+    bench.assert(QGC, count(2), &[Message::Request { seq: 0, mission_type: MISSION }]);
     let late = Received::Item(mission(1, 3)[0]);
-    bench.assert(QGC, late, &[Message::Request { seq: 1 }]);
+    bench.assert(QGC, late, &[Message::Request { seq: 1, mission_type: MISSION }]);
     let [first, second] = [0, 1].map(|seq| Received::Item(mission(2, 2)[seq]));
-    bench.assert(QGC, first, &[Message::Request { seq: 0 }]);
-    bench.assert(QGC, first, &[Message::Request { seq: 1 }]);
+    bench.assert(QGC, first, &[Message::Request { seq: 0, mission_type: MISSION }]);
+    bench.assert(QGC, first, &[Message::Request { seq: 1, mission_type: MISSION }]);
     bench.assert(QGC, second, &[ack(result::ACCEPTED)]);
     assert_eq!(bench.transfer.items(), mission(2, 2));
 }
@@ -194,12 +200,12 @@ fn items_that_come_twice_late_or_too_early_are_no_error() {
     bench.from(QGC, count(3));
     bench.assert(QGC, second, &[]);
     // What is missing is asked for again, as if nothing had come.
-    assert_eq!(bench.after(250), (vec![Message::Request { seq: 0 }], None));
-    bench.assert(QGC, first, &[Message::Request { seq: 1 }]);
+    assert_eq!(bench.after(250), (vec![Message::Request { seq: 0, mission_type: MISSION }], None));
+    bench.assert(QGC, first, &[Message::Request { seq: 1, mission_type: MISSION }]);
     bench.assert(QGC, first, &[]);
     bench.assert(QGC, third, &[]);
-    assert_eq!(bench.after(250), (vec![Message::Request { seq: 1 }], None));
-    bench.assert(QGC, second, &[Message::Request { seq: 2 }]);
+    assert_eq!(bench.after(250), (vec![Message::Request { seq: 1, mission_type: MISSION }], None));
+    bench.assert(QGC, second, &[Message::Request { seq: 2, mission_type: MISSION }]);
     bench.assert(QGC, first, &[]);
     bench.assert(QGC, second, &[]);
     bench.assert(QGC, third, &[ack(result::ACCEPTED)]);
@@ -228,7 +234,7 @@ fn a_partner_that_counts_otherwise_is_given_up_as_a_silent_one_is() {
     bench.from(QGC, count(3));
     for _ in 0..5 {
         bench.assert(QGC, Received::Item(mission(1, 3)[2]), &[]);
-        assert_eq!(bench.after(250).0, [Message::Request { seq: 0 }]);
+        assert_eq!(bench.after(250).0, [Message::Request { seq: 0, mission_type: MISSION }]);
     }
     assert_eq!(bench.after(250).1, Some(Event::Cancelled));
     // Its item, late, has the same answer.
@@ -245,8 +251,16 @@ fn an_upload_is_refused_at_the_item_that_is_wrong() {
         .map(|item| if item.seq == 2 { Item { z: -9.0, ..item } } else { item })
         .collect();
     bench.from(QGC, count(5));
-    bench.assert(QGC, Received::Item(items[0]), &[Message::Request { seq: 1 }]);
-    bench.assert(QGC, Received::Item(items[1]), &[Message::Request { seq: 2 }]);
+    bench.assert(
+        QGC,
+        Received::Item(items[0]),
+        &[Message::Request { seq: 1, mission_type: MISSION }],
+    );
+    bench.assert(
+        QGC,
+        Received::Item(items[1]),
+        &[Message::Request { seq: 2, mission_type: MISSION }],
+    );
     let (messages, event) = bench.from(QGC, Received::Item(items[2]));
     assert_eq!(messages, [ack(result::INVALID_PARAM7)]);
     let Some(Event::Refused(problem)) = event else { panic!("not refused") };
@@ -334,7 +348,7 @@ fn too_large_a_mission_is_refused() {
 }
 
 #[test]
-fn the_fence_is_read_and_not_changed() {
+fn the_fence_is_read_and_sent_back_and_not_changed() {
     let mut bench = Bench::default();
     bench.upload(&mission(1, 2));
     let count = Message::Count { count: 1, mission_type: FENCE };
@@ -344,11 +358,39 @@ fn the_fence_is_read_and_not_changed() {
     bench.assert(QGC, asked(0), &[Message::Item(item)]);
     let ack = |result| [Message::Ack { result, mission_type: FENCE }];
     bench.assert(QGC, asked(1), &ack(result::INVALID_SEQUENCE));
+    // A plan without one changes nothing, and the vehicle's own may be sent back.
+    bench.assert(QGC, Received::Count { count: 0, mission_type: FENCE }, &ack(result::ACCEPTED));
+    let asked = [Message::Request { seq: 0, mission_type: FENCE }];
+    bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &asked);
+    bench.now += REPEAT_AFTER;
+    assert_eq!(bench.transfer.tick_fence(bench.now).messages[..], asked);
+    let moved = Item { x: item.x + 1, param1: item.param1 + 0.01, ..item };
+    let (messages, event) = bench.from(QGC, Received::Item(moved));
+    assert_eq!((&messages[..], event), (&ack(result::ACCEPTED)[..], Some(Event::FenceSame)));
+    // The acknowledgement was lost.
+    bench.assert(QGC, Received::Item(item), &ack(result::ACCEPTED));
     let denied = ack(result::DENIED);
-    bench.assert(QGC, Received::Count { count: 0, mission_type: FENCE }, &denied);
-    bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &denied);
+    for other in [
+        Item { param1: item.param1 + 1.0, ..item },
+        Item { x: item.x + 100, ..item },
+        Item { command: 5004, ..item },
+        Item { param1: f32::NAN, ..item },
+    ] {
+        bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &asked);
+        let (messages, event) = bench.from(QGC, Received::Item(other));
+        assert_eq!((&messages[..], event), (&denied[..], Some(Event::FenceStays)), "{other:?}");
+    }
+    bench.assert(QGC, Received::Item(Item { param1: 3.0, ..item }), &[]);
+    bench.assert(QGC, Received::Count { count: 3, mission_type: FENCE }, &denied);
     bench.assert(QGC, Received::ClearAll { mission_type: FENCE }, &denied);
-    bench.assert(QGC, Received::Item(item), &ack(result::UNSUPPORTED));
+    // Whoever falls silent is given up.
+    bench.from(QGC, Received::Count { count: 1, mission_type: FENCE });
+    for _ in 0..6 {
+        bench.now += REPEAT_AFTER;
+        bench.transfer.tick_fence(bench.now);
+    }
+    assert_eq!(bench.transfer.sending_fence(), None);
+    assert_eq!(fence::item(0, &RULES), Some(item));
     assert_eq!(bench.transfer.items(), mission(1, 2));
 }
 
@@ -469,7 +511,7 @@ impl Client {
         self.heard_ms = now_ms;
         self.retries = 0;
         match message {
-            Message::Request { seq } => {
+            Message::Request { seq, .. } => {
                 self.last = Received::Item(*self.items.get(usize::from(seq))?);
                 Some(self.last)
             }

@@ -116,13 +116,22 @@ def test_a_count_of_none_clears(station):
     assert download(station) == []
 
 
-def test_the_fence_is_read_and_not_changed_and_rally_points_are_not_there(station):
+def test_the_fence_is_read_and_sent_back_and_not_changed_and_rally_points_are_not_there(station):
     keep_old(station)
     fence, = download(station, 1)
     # A circle of inclusion around the start.
     assert (fence.command, fence.mission_type, fence.x, fence.y) == (5003, 1, *flying.to_1e7(0.0, 0.0)), fence
     near(fence.param1, 10.0, 1e-6, "the radius")
     assert download(station, 2) == []
+    # Sent back, it is the same; a plan without one changes nothing.
+    own = Item(fence.command, fence.frame, fence.x, fence.y, fence.z, (fence.param1, 0.0, 0.0, 0.0), kind=1)
+    assert upload(station, [own], kind=1) == 0
+    assert upload(station, [], kind=1) == 0
+    asked_s = time.monotonic()
+    smaller = Item(fence.command, fence.frame, fence.x, fence.y, fence.z, (4.0, 0.0, 0.0, 0.0), kind=1)
+    assert upload(station, [smaller], kind=1) == plans.DENIED
+    station.hear(0.3)
+    assert any("fence not changed" in text for text in station.texts(asked_s)), station.texts(asked_s)
     for kind, answer in ((1, plans.DENIED), (2, plans.UNSUPPORTED)):
         asked_s = time.monotonic()
         plans.count(station, 3, kind)

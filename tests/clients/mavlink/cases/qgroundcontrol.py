@@ -228,9 +228,16 @@ def test_a_mission_that_is_not_there_is_not_begun_in_silence(station):
 
 
 def test_a_fence_in_a_plan_is_refused_in_words(station):
+    """It sends one only to who says that it takes missions of that kind."""
+    assert station.request(148)[1].capabilities & 1 << 14, "no capability MISSION_FENCE"
     asked_s = time.monotonic()
-    plans.count(station, 3, 1)
-    said(station, asked_s, "fence not changed", ERROR)
+    corners = [plans.Item(5001, 0, *flying.to_1e7(*at), 0.0, (3.0, 0.0, 0.0, 0.0), kind=1) for at in ((-2, -2), (2, 0), (0, 2))]
+    assert plans.upload(station, corners, kind=1) == plans.DENIED
+    said(station, asked_s, "fence not changed: it is 10 m around the start", ERROR)
+    # Of a plan without one, and of one that was read from the vehicle, nothing is wrong.
+    assert plans.upload(station, [], kind=1) == 0
+    own, = plans.download(station, 1)
+    assert plans.upload(station, [plans.Item(own.command, own.frame, own.x, own.y, 0.0, (own.param1, 0.0, 0.0, 0.0), kind=1)], kind=1) == 0
 
 
 def test_the_battery_has_volts_and_a_turn_its_rate(station):
