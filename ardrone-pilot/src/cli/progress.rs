@@ -207,6 +207,8 @@ mod tests {
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),
             battery_percent: Some(87),
+            battery_v: Some(11.9),
+            turn_rate_deg_s: Some(0.0),
             horizontal_deviation_m: 0.1,
             rests_on: RestsOn::Velocity,
             contradicted_by: None,

@@ -420,6 +420,8 @@ mod tests {
             target: Some(target),
             distance_m: Some(1.0 - share),
             battery_percent: Some(87),
+            battery_v: Some(11.9),
+            turn_rate_deg_s: Some(0.0),
             horizontal_deviation_m: 0.12,
             rests_on: RestsOn::Velocity,
             contradicted_by: None,
