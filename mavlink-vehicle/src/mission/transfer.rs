@@ -145,6 +145,8 @@ struct Upload {
     count: u16,
     asked_at: Duration,
     repeats: u8,
+    /// It began like the one that has just ended: perhaps its beginning was doubled on its way.
+    again: bool,
 }
 
 /// A fence that is being sent.
@@ -278,7 +280,12 @@ impl Transfer {
             return Handled::default();
         }
         if upload.repeats >= REPEATS {
-            let from = upload.from;
+            let (from, again) = (upload.from, upload.again);
+            if again && seq == 0 {
+                // Nobody meant it.
+                self.upload = None;
+                return Handled::default();
+            }
             self.end_upload(now, from, seq, result::OPERATION_CANCELLED);
             return Handled::ack(result::OPERATION_CANCELLED, MISSION).with(Event::Cancelled);
         }
@@ -362,6 +369,11 @@ impl Transfer {
     }
 
     fn count(&mut self, now: Duration, from: Partner, count: u16) -> Handled {
+        let again = self.finished.is_some_and(|finished| {
+            finished.from == from
+                && finished.last.is_some_and(|last| last.checked_add(1) == Some(count))
+                && now.saturating_sub(finished.at) <= REMEMBERED_FOR
+        });
         self.upload = None;
         self.finished = None;
         if count == 0 {
@@ -377,7 +389,7 @@ impl Transfer {
         }
         self.incoming.clear();
         self.incoming.reserve_exact(usize::from(count));
-        self.upload = Some(Upload { from, count, asked_at: now, repeats: 0 });
+        self.upload = Some(Upload { from, count, asked_at: now, repeats: 0, again });
         Handled::send(Message::Request { seq: 0, mission_type: MISSION })
     }
 

@@ -229,6 +229,21 @@ fn late_items_of_a_mission_that_was_removed_are_no_error() {
 }
 
 #[test]
+fn the_beginning_of_an_upload_that_comes_twice_is_given_up_without_a_word() {
+    let mut bench = Bench::default();
+    bench.upload(&mission(1, 2));
+    bench.assert(QGC, count(2), &[Message::Request { seq: 0, mission_type: MISSION }]);
+    for _ in 0..5 {
+        assert_eq!(bench.after(250).0, [Message::Request { seq: 0, mission_type: MISSION }]);
+    }
+    assert_eq!(bench.after(250), (vec![], None));
+    assert_eq!((bench.transfer.uploading(), bench.transfer.items()), (None, &mission(1, 2)[..]));
+    // One that was meant is as any other.
+    bench.upload(&mission(1, 2));
+    assert_eq!(bench.upload(&mission(2, 2)).1, Some(Event::Accepted));
+}
+
+#[test]
 fn a_partner_that_counts_otherwise_is_given_up_as_a_silent_one_is() {
     let mut bench = Bench::default();
     bench.from(QGC, count(3));
