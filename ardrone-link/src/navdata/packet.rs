@@ -149,6 +149,15 @@ impl<'a> Packet<'a> {
         self.payload(27).filter(|payload| payload.len() == Gps::EXACT_BYTES).and_then(Gps::read)
     }
 
+    /// Voltage of the battery in millivolts, if the raw measures are included.
+    pub fn battery_mv(&self) -> Option<u32> {
+        let raw = self.payload(2).and_then(RawMeasures::read)?;
+        // The option has whole millivolts of 32 bits, so that this is exact.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let millivolts = (raw.battery_v * 1e3).round() as u32;
+        Some(millivolts)
+    }
+
     /// The drone's clock, if included.
     pub fn time(&self) -> Option<Time> {
         self.payload(1).and_then(Time::read)

@@ -19,6 +19,8 @@ pub struct Navdata {
     pub demo: Option<Demo>,
     /// The drone's clock, which wraps after 2048 s.
     pub time: Option<Duration>,
+    /// Voltage of the battery, in millivolts.
+    pub battery_mv: Option<u32>,
 }
 
 impl Navdata {
@@ -39,6 +41,7 @@ impl From<&Packet<'_>> for Navdata {
             vision: packet.vision,
             demo: packet.demo(),
             time: packet.time().map(|time| time.since_start),
+            battery_mv: packet.battery_mv(),
         }
     }
 }

@@ -72,6 +72,17 @@ fn demo_set() -> BytesMut {
 }
 
 #[test]
+fn the_voltage_is_in_whole_millivolts() {
+    let mut bytes = BytesMut::new();
+    let mut writer = PacketWriter::new(&mut bytes, DroneState::FLYING, 7, 1);
+    let raw = RawMeasures { battery_v: 11.686, ..RawMeasures::default() };
+    writer.option(&NavdataOption::RawMeasures(raw)).unwrap();
+    writer.finish();
+    assert_eq!(Navdata::decode(&bytes).unwrap().battery_mv, Some(11_686));
+    assert_eq!(Navdata::decode(&demo_set()).unwrap().battery_mv, None);
+}
+
+#[test]
 fn the_demo_set_has_the_size_that_clients_know() {
     assert_eq!(demo_set().len(), 500);
     assert_eq!(packet(&[]).len(), 24);
