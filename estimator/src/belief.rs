@@ -6,7 +6,7 @@
 //! stop.
 
 use crate::silence::USUAL_STEP_S;
-use crate::trust::{Quantity, Trust};
+use crate::trust::{Quantity, Trust, Worth};
 
 /// A quantity that was wrong for longer than this is disproved.
 pub(crate) const ENOUGH_S: f64 = 0.4;
@@ -160,6 +160,20 @@ impl Beliefs {
                 Belief::Sound | Belief::Suspect => None,
             },
         )
+    }
+
+    /// What each quantity is worth, in the order of [`Quantity::ALL`].
+    pub(crate) fn worth(&self) -> [Worth; Quantity::ALL.len()] {
+        let at_s = self.at_s.unwrap_or_default();
+        let mut worth = [Worth::Sound; Quantity::ALL.len()];
+        for ((worth, tally), quantity) in worth.iter_mut().zip(&self.tallies).zip(Quantity::ALL) {
+            *worth = match tally.belief(at_s) {
+                Belief::Sound => Worth::Sound,
+                Belief::Suspect => Worth::Suspect,
+                Belief::Disproved { cause, .. } => Worth::Disproved(cause.trust(quantity)),
+            };
+        }
+        worth
     }
 
     /// Whether all quantities are believed; otherwise what is wrong.

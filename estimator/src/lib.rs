@@ -62,7 +62,7 @@ use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
-pub use trust::{Quantity, Trust};
+pub use trust::{Quantity, Trust, Worth};
 pub use world::{
     KnownTag, KnownTags, MAX_SIGHTS, MAX_TAGS, NoRoom, OrientationSign, Sight, SurveyedTag,
     TagConfig, TagStatus,
@@ -727,6 +727,11 @@ impl Estimator {
     /// Whether navdata are plausible.
     pub fn trust(&self) -> Trust {
         self.beliefs.trust()
+    }
+
+    /// What each quantity in navdata is worth, in the order of [`Quantity::ALL`].
+    pub fn worth(&self) -> [Worth; Quantity::ALL.len()] {
+        self.beliefs.worth()
     }
 
     /// When the newest plausible navdata arrived; `None` if there were none yet. A fault is dated from its

@@ -17,8 +17,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// All quantities.
-    pub(crate) const ALL: [Self; 4] =
-        [Self::Velocity, Self::Altitude, Self::Heading, Self::Attitude];
+    pub const ALL: [Self; 4] = [Self::Velocity, Self::Altitude, Self::Heading, Self::Attitude];
 }
 
 impl fmt::Display for Quantity {
@@ -61,6 +60,33 @@ impl fmt::Display for Trust {
                 write!(f, "the {quantity} in navdata does not follow the commands")
             }
             Self::Reported(quantity) => write!(f, "the drone reports that it lost its {quantity}"),
+        }
+    }
+}
+
+/// What a quantity in navdata is worth by the evidence against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Worth {
+    /// Nothing speaks against it.
+    #[default]
+    Sound,
+    /// Something does, but not for long enough.
+    Suspect,
+    /// It is wrong, and how that shows.
+    Disproved(Trust),
+}
+
+impl Worth {
+    /// In one word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sound | Self::Disproved(Trust::Sound) => "sound",
+            Self::Suspect => "suspect",
+            Self::Disproved(Trust::Frozen(_)) => "frozen",
+            Self::Disproved(Trust::Implausible(_)) => "implausible",
+            Self::Disproved(Trust::Noisy(_)) => "noisy",
+            Self::Disproved(Trust::Unresponsive(_)) => "unresponsive",
+            Self::Disproved(Trust::Reported(_)) => "lost",
         }
     }
 }

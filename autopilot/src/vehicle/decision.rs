@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::session::Order;
-use estimator::{Prediction, TagStatus};
+use estimator::{Prediction, Quantity, TagStatus, Worth};
 use kinematics::Pose;
 
 use super::Phase;
@@ -23,6 +23,8 @@ pub struct Decision {
     pub state: Prediction,
     /// Standard deviation of the height, in metres.
     pub vertical_deviation_m: f64,
+    /// What each quantity in navdata is worth, in the order of [`Quantity::ALL`].
+    pub worth: [Worth; Quantity::ALL.len()],
     /// The known tags and their status, if tags are used.
     pub tags: Option<TagStatus>,
     /// Percepts given to the agent.

@@ -42,7 +42,9 @@ use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{BitRateControl, Camera, Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
-pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
+pub use estimator::{
+    KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust, Worth,
+};
 use kinematics::Pose;
 use pid::CascadeConfig;
 

@@ -82,6 +82,7 @@ impl Vehicle {
             step: self.life.due().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            worth: self.flight.estimator.worth(),
             tags,
             percepts,
             plans: step.plans,

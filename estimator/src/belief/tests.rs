@@ -141,3 +141,19 @@ fn old_news_does_not_make_navdata_fresh() {
     beliefs.weigh(0.05, &[], false);
     assert_eq!((beliefs.trust(), beliefs.sound_at_s()), (Trust::Sound, Some(0.0)));
 }
+
+#[test]
+fn each_quantity_has_its_worth() {
+    let mut beliefs = Beliefs::new();
+    let mut worth = Vec::new();
+    for packet in 0..20 {
+        let at_s = PACKET_S * f64::from(packet);
+        let evidence =
+            Evidence { quantity: Quantity::Altitude, cause: Cause::Value, since_s: at_s };
+        beliefs.weigh(at_s, &[(packet > 2).then_some(evidence)], true);
+        worth.push(beliefs.worth().map(Worth::name));
+    }
+    assert_eq!(worth[2], ["sound"; 4]);
+    assert_eq!(worth[4], ["sound", "suspect", "sound", "sound"]);
+    assert_eq!(worth[19], ["sound", "implausible", "sound", "sound"]);
+}
