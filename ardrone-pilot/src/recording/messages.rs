@@ -7,7 +7,7 @@ use ardrone_link::navdata::{GpsFix, Packet};
 use ardrone_link::session::FlightOrder;
 use autopilot::vehicle::{Decision, KnownTag, RestsOn, TagStatus};
 use kinematics::Pose;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A tick: state, decision and output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -149,13 +149,21 @@ pub struct DecodedNavdata {
     pub battery_percent: Option<u32>,
     /// Ultrasound altitude.
     pub altitude_m: Option<f64>,
-    /// Forward, right, down.
+    /// Forward, right, down. What is no number is null in the file, and NaN here.
+    #[serde(deserialize_with = "numbers_or_null")]
     pub velocity_m_s: Option<[f64; 3]>,
-    /// Roll, pitch and yaw as reported by the drone.
+    /// Roll, pitch and yaw as reported by the drone; likewise.
+    #[serde(deserialize_with = "numbers_or_null")]
     pub attitude_deg: Option<[f64; 3]>,
     /// Position by the flight recorder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gps: Option<GpsPosition>,
+}
+
+/// JSON has no NaN, and a drone may send one.
+fn numbers_or_null<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64; 3]>, D::Error> {
+    let numbers = Option::<[Option<f64>; 3]>::deserialize(from)?;
+    Ok(numbers.map(|numbers| numbers.map(|number| number.unwrap_or(f64::NAN))))
 }
 
 /// A position by the drone's flight recorder.
