@@ -1,11 +1,12 @@
 //! Messages of the flight log: JSON objects whose fields have the same names in the file and here.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::{GpsFix, Packet};
 use ardrone_link::session::FlightOrder;
-use autopilot::vehicle::{Decision, KnownTag, RestsOn, TagStatus};
+use autopilot::vehicle::{Decision, KnownTag, Quantity, RestsOn, TagStatus, Worth};
 use kinematics::Pose;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -26,6 +27,9 @@ pub struct Tick {
     pub agent: Agent,
     /// Why the safety monitor replaced the agent's command.
     pub veto: Option<String>,
+    /// What is not believed of navdata: quantity, and how that shows. `None` in logs of older versions.
+    #[serde(default)]
+    pub disbelieved: Option<BTreeMap<String, String>>,
     /// Timing of the tick.
     pub timing: Timing,
     /// Text of the datagram.
@@ -269,10 +273,20 @@ impl Tick {
             command: Command::new(decision),
             agent: Agent::new(decision),
             veto: decision.veto.map(|veto| veto.name().to_owned()),
+            disbelieved: Some(disbelieved(decision)),
             timing: Timing { late_ms: short(timing.late_ms), work_ms: short(timing.work_ms) },
             datagram: String::from_utf8_lossy(datagram).into_owned(),
         }
     }
+}
+
+/// Quantities that are not sound, and what they are.
+fn disbelieved(decision: &Decision) -> BTreeMap<String, String> {
+    let worth = Quantity::ALL.into_iter().zip(decision.worth);
+    worth
+        .filter(|(_, worth)| *worth != Worth::Sound)
+        .map(|(quantity, worth)| (quantity.to_string(), worth.name().to_owned()))
+        .collect()
 }
 
 impl Estimate {

@@ -18,6 +18,16 @@ impl Order {
         Self { by, order: order.into() }
     }
 
+    /// The order and who gave it, for people.
+    pub fn text(&self) -> String {
+        format!("{}: {}", self.by, self.order.name())
+    }
+
+    /// Whether it is one of many in a row, as those of sticks that are held.
+    pub fn repeats(&self) -> bool {
+        matches!(self.order, OrderText::Steer(_) | OrderText::Setpoint(_) | OrderText::Present)
+    }
+
     /// Converts the message back to an order.
     ///
     /// # Errors
