@@ -16,6 +16,8 @@ pub(crate) struct RecordedFlight {
     pub(crate) plan: String,
     /// First and last tick in the air; both are the end for a flight that never left the ground.
     pub(crate) air: (Duration, Duration),
+    /// When its outcome was known.
+    pub(crate) ended: Option<Duration>,
     /// Whether it is a warning, and text; `None` for a flight that goes on or was cut off.
     pub(crate) outcome: Option<(bool, String)>,
     /// Charge at the beginning and at the end.
@@ -39,6 +41,7 @@ pub(crate) fn flights(log: &Log) -> Vec<RecordedFlight> {
             Entry::Outcome { warns, text } => {
                 let mut flight = flight.take().unwrap_or_else(|| RecordedFlight::new(&plan, *at));
                 flight.outcome = Some((*warns, text.clone()));
+                flight.ended = Some(*at);
                 flights.push(flight);
             }
             _ => {}
@@ -56,7 +59,7 @@ impl RecordedFlight {
     fn new(plan: &str, at: Duration) -> Self {
         let air = (at, at);
         let plan = plan.to_owned();
-        Self { plan, air, outcome: None, battery_percent: None, farthest_m: 0.0 }
+        Self { plan, air, ended: None, outcome: None, battery_percent: None, farthest_m: 0.0 }
     }
 
     fn extend(&mut self, at: Duration, tick: &Tick) {

@@ -27,6 +27,7 @@ mod ports;
 mod processes;
 mod recording;
 mod relay;
+mod reports;
 mod safety;
 mod sensors;
 mod sequence;

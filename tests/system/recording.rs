@@ -341,7 +341,6 @@ fn a_report_answers_why() {
     let mut log = Log::read(&file).unwrap();
     log.plan_name = "<script>alert(1)</script>".to_owned();
     let page = report::html(&log, &[]).unwrap();
-    assert_eq!(page.matches("<svg ").count(), 8);
     for outside in ["http://", "https://", "<link", "src=", "<script>alert"] {
         let inside = page.replace("http://www.w3.org/2000/svg", "");
         assert!(!inside.contains(outside), "{outside}");

@@ -241,7 +241,7 @@ fn the_report_shows_the_pictures() {
     let report = program("ardrone-pilot").arg("report").arg(&log).output();
     assert_eq!(report.unwrap().status.code(), Some(0));
     let tab = chromium.open(&format!("file://{}", log.with_extension("html").display()));
-    chromium.wait(&tab, "typeof camera === 'object' && camera !== null && camera.shown() === null");
+    chromium.wait(&tab, "typeof camera === 'object' && camera !== null");
     let mut seen = Vec::new();
     for share in [0.3, 0.7, 0.2] {
         chromium.evaluate(&tab, &format!("show({share} * Number(end))"));

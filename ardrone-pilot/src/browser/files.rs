@@ -31,7 +31,7 @@ use super::planning::Planning;
 use super::settings_file::{ChangeError, SettingsFile};
 use crate::flights::{RecordedFlight, flights};
 use crate::recording::{Log, LogError, pictures};
-use crate::report::{self, ReportError};
+use crate::report::{ReportError, Reports};
 
 /// Maximum size of a plan; those that can be flown are much smaller.
 pub(super) const PLAN_BYTES: usize = 32 << 10;
@@ -160,7 +160,8 @@ impl Files {
             .route("/flights", get(list_flights))
             .route("/flights/{name}", get(download).delete(delete))
             .route("/flights/{name}/summary", get(summary))
-            .route("/flights/{name}/report", get(show_report))
+            .route("/flights/{name}/report", get(show_last_report))
+            .route("/flights/{name}/report/{flight}", get(show_report))
             .route("/flights/{name}/track/{flight}", get(track))
             .with_state(Arc::clone(self))
     }
@@ -190,6 +191,22 @@ impl Files {
     fn log(&self, name: &str) -> Result<Log, Failure> {
         let file = self.flights.read(name, LOG_BYTES)?;
         Log::read_decisions(&file).map_err(|error| Failure::Log(name.to_owned(), error))
+    }
+
+    /// The page about a flight of a recording, or about its last one.
+    fn report(&self, name: String, index: Option<usize>) -> Result<String, Failure> {
+        let file = self.flights.read(&name, LOG_BYTES)?;
+        let bad = |error| Failure::Log(name.clone(), error);
+        let (log, pictures) = (Log::read(&file).map_err(bad)?, pictures(&file).map_err(bad)?);
+        let reports = Reports::new(&log, &pictures);
+        // Relative to the page that is asked for.
+        let folder = if index.is_some() { "" } else { "report/" };
+        let page =
+            reports.html(index.unwrap_or(reports.count() - 1), |index| format!("{folder}{index}"));
+        page.map_err(|error| match error {
+            ReportError::NoFlight(number) => Failure::NoFlight(name, number),
+            ReportError::Empty => Failure::Report(name, error),
+        })
     }
 
     /// Description of a recording. One that is finished is read once.
@@ -316,17 +333,26 @@ async fn summary(State(files): Shared, Path(name): Path<String>) -> Result<Json,
     files.slowly(move |files| files.summary(&name)).await?.map(Json)
 }
 
-async fn show_report(State(files): Shared, Path(name): Path<String>) -> Result<Response, Failure> {
-    let make = move |files: &Files| {
-        let file = files.flights.read(&name, LOG_BYTES)?;
-        let bad = |error| Failure::Log(name.clone(), error);
-        let (log, pictures) = (Log::read(&file).map_err(bad)?, pictures(&file).map_err(bad)?);
-        report::html(&log, &pictures).map_err(|error| Failure::Report(name, error))
-    };
-    let page = files.slowly(make).await??;
+/// The page of the last flight of a recording.
+async fn show_last_report(
+    State(files): Shared,
+    Path(name): Path<String>,
+) -> Result<Response, Failure> {
+    files.slowly(move |files| files.report(name, None)).await?.map(page)
+}
+
+/// The page of a flight, counted as by [`track`].
+async fn show_report(
+    State(files): Shared,
+    Path((name, index)): Path<(String, usize)>,
+) -> Result<Response, Failure> {
+    files.slowly(move |files| files.report(name, Some(index))).await?.map(page)
+}
+
+fn page(page: String) -> Response {
     let headers =
         [(CONTENT_TYPE, "text/html; charset=utf-8"), (CONTENT_SECURITY_POLICY, REPORT_POLICY)];
-    Ok((headers, page).into_response())
+    (headers, page).into_response()
 }
 
 async fn track(

@@ -12,9 +12,10 @@ mod screen;
 mod summary;
 mod terminal;
 
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{IsTerminal as _, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use autopilot::plan::PlanError;
@@ -31,7 +32,7 @@ use crate::mavlink::MavlinkError;
 use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
-use crate::report::{self, ReportError};
+use crate::report::{ReportError, Reports};
 use crate::settings::{Settings, SettingsError};
 use crate::text_file;
 use crate::video::{self, ExportError};
@@ -156,21 +157,59 @@ fn print_manual() -> u8 {
     0
 }
 
-/// Writes the report page of a log.
+/// Writes the report of a log: a page for each flight.
 fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
     let file = read_file(path)?;
     let log = parse_log(path, &file)?;
     let pictures = recording::pictures(&file)
         .map_err(|source| CommandError::Log { path: path.display().to_string(), source })?;
-    let page = report::html(&log, &pictures)?;
     let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
-    std::fs::write(&output, page).map_err(|source| CommandError::Write {
-        what: "the report",
-        path: output.display().to_string(),
-        source,
-    })?;
-    terminal::print(format_args!("{}\n", output.display()));
+    let reports = Reports::new(&log, &pictures);
+    let name = |index| report_name(&output, index, reports.count());
+    for index in 0..reports.count() {
+        // The pages are in the same folder.
+        let link = |other| {
+            let name = name(other).file_name().map(|name| name.to_string_lossy().into_owned());
+            name.map(|name| address_of(&name)).unwrap_or_default()
+        };
+        let page = reports.html(index, link)?;
+        let output = name(index);
+        std::fs::write(&output, page).map_err(|source| CommandError::Write {
+            what: "the report",
+            path: output.display().to_string(),
+            source,
+        })?;
+        terminal::print(format_args!("{}\n", output.display()));
+    }
     Ok(0)
+}
+
+/// The file of a flight's page: of several, each has its number behind the name.
+fn report_name(output: &Path, index: usize, count: usize) -> PathBuf {
+    if count < 2 {
+        return output.to_owned();
+    }
+    let mut name = output.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{}", index + 1));
+    if let Some(extension) = output.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    output.with_file_name(name)
+}
+
+/// A file's name as the address of a page beside it.
+fn address_of(name: &str) -> String {
+    let mut address = String::from("./");
+    for byte in name.bytes() {
+        if byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'-' | b'_') {
+            address.push(byte.into());
+        } else {
+            // Writing to a string cannot fail.
+            _ = write!(address, "%{byte:02X}");
+        }
+    }
+    address
 }
 
 /// Replays a log; returns 1 if today's code decides differently.

@@ -1,12 +1,18 @@
 //! Data of a report, extracted from a log.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use autopilot::agent::plan_text;
 use diagnostic::{printable, printable_lines};
 use serde::Serialize;
 
+use super::events::{Event, events};
+use super::rows::{Row, rows};
+use super::series::Scales;
+use super::spans::{Strip, beliefs, states};
 use crate::recording::{Log, Tags, Tick};
+use crate::settings::Settings;
 
 /// Maximum length of a plan's text and maximum number of plans. They bound the size of the page for a forged
 /// log; real agents have less.
@@ -20,24 +26,31 @@ const LONGEST_LABEL: usize = 100;
 /// A flight as needed by the report. All text in it is [printable], whatever the log contains.
 #[derive(Debug)]
 pub(super) struct Flight<'a> {
-    /// Seconds since the start, and the tick.
-    pub(super) ticks: Vec<(f64, &'a Tick)>,
+    /// The ticks, with what had been heard by then.
+    pub(super) rows: Vec<Row<'a>>,
+    /// What their numbers refer to.
+    pub(super) scales: Scales,
+    /// What was believed of each quantity.
+    pub(super) beliefs: Vec<Strip>,
+    /// What the drone said of itself.
+    pub(super) states: Vec<Strip>,
     /// Sections of the flight for the background of plots.
     pub(super) bands: Vec<Band>,
     /// Decisions of the agent; consecutive equal ones are merged.
     pub(super) decisions: Vec<Decision>,
     /// Source text of the chosen plans, by line.
     pub(super) plans: BTreeMap<u32, String>,
-    /// Seconds, whether it is a warning, and text.
-    pub(super) events: Vec<(f64, bool, &'a str)>,
+    /// Everything that happened.
+    pub(super) events: Vec<Event>,
     /// Seconds, and the tags that were known then.
     pub(super) tags: Vec<(f64, &'a Tags)>,
-    /// Time of the last tick.
+    /// Times of the first and of the last tick, in seconds since the recording's start.
+    pub(super) begin_s: f64,
     pub(super) end_s: f64,
 }
 
 /// A section of the flight, drawn as background of plots.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Band {
     pub(super) from_s: f64,
     pub(super) to_s: f64,
@@ -47,7 +60,8 @@ pub(super) struct Band {
 }
 
 /// Colour of a band.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub(super) enum BandKind {
     /// On the ground, before or after the flight.
     Ground,
@@ -75,24 +89,30 @@ pub(super) struct Decision {
 }
 
 impl<'a> Flight<'a> {
-    pub(super) fn new(log: &'a Log) -> Option<Self> {
-        let ticks: Vec<(f64, &Tick)> =
-            log.ticks().map(|(at, tick)| (at.as_secs_f64(), tick)).collect();
-        let end_s = ticks.last()?.0;
+    /// A part of a recording; `None` if nothing was decided in it.
+    pub(super) fn new(log: &'a Log, span: (Duration, Duration)) -> Option<Self> {
+        let rows = rows(log, span);
+        let (begin_s, end_s) = (rows.first()?.at_s, rows.last()?.at_s);
         let mut missions = log.missions().peekable();
         let mut steps = steps(&log.plan);
+        let (beliefs, states) = (beliefs(&rows), states(&rows));
+        let events = events(log, span, &rows, &beliefs, &states);
         let mut flight = Self {
             bands: Vec::new(),
             decisions: Vec::new(),
             plans: BTreeMap::new(),
-            events: Vec::new(),
-            tags: Vec::new(),
+            scales: scales(log, &rows),
+            beliefs,
+            states,
+            events,
+            tags: tags(log, span),
+            begin_s,
             end_s,
-            ticks,
+            rows,
         };
-        for index in 0..flight.ticks.len() {
-            let (at_s, tick) = flight.ticks[index];
-            let until_s = flight.ticks.get(index + 1).map_or(at_s, |(next_s, _)| *next_s);
+        for index in 0..flight.rows.len() {
+            let Row { at_s, tick, .. } = flight.rows[index];
+            let until_s = flight.rows.get(index + 1).map_or(at_s, |next| next.at_s);
             while let Some((_, mission)) = missions.next_if(|(at, _)| at.as_secs_f64() <= at_s) {
                 steps = mission.steps.iter().map(|step| label(step)).collect();
             }
@@ -100,13 +120,6 @@ impl<'a> Flight<'a> {
             flight.extend_decision(at_s, until_s, tick, &steps);
             flight.extend_plans(tick, &log.agent);
         }
-        let events = log.events().map(|(at, warns, text)| (at.as_secs_f64(), warns, text));
-        flight.events = events.collect();
-        let tags = || log.tags().map(|(at, tags)| (at.as_secs_f64(), tags));
-        let every = tags().count().div_ceil(MOST_TAG_MOMENTS).max(1);
-        // The last one is always among them.
-        let skipped = tags().count().saturating_sub(1) % every;
-        flight.tags = tags().skip(skipped).step_by(every).collect();
         Some(flight)
     }
 
@@ -153,26 +166,60 @@ impl<'a> Flight<'a> {
         }
     }
 
+    /// The ticks.
+    pub(super) fn ticks(&self) -> impl DoubleEndedIterator<Item = (f64, &'a Tick)> + '_ {
+        self.rows.iter().map(|row| (row.at_s, row.tick))
+    }
+
     /// Duration in the air, in seconds.
     pub(super) fn flown_s(&self) -> f64 {
-        let airborne = |(_, tick): &&(f64, &Tick)| !tick.agent.on_ground;
-        let first = self.ticks.iter().find(airborne).map(|(at_s, _)| *at_s);
-        let last = self.ticks.iter().rfind(airborne).map(|(at_s, _)| *at_s);
+        let mut airborne = self.ticks().filter(|(_, tick)| !tick.agent.on_ground);
+        let first = airborne.next().map(|(at_s, _)| at_s);
+        let last = airborne.next_back().map(|(at_s, _)| at_s);
         first.zip(last).map_or(0.0, |(first, last)| last - first)
     }
 
     /// Charge at the beginning and at the end, in percent.
     pub(super) fn battery_percent(&self) -> Option<(u32, u32)> {
-        let charge = |(_, tick): &(f64, &Tick)| tick.agent.battery_percent;
-        Some((self.ticks.iter().find_map(charge)?, self.ticks.iter().rev().find_map(charge)?))
+        let charge = |(_, tick): (f64, &Tick)| tick.agent.battery_percent;
+        Some((self.ticks().find_map(charge)?, self.ticks().rev().find_map(charge)?))
+    }
+
+    /// Voltage at the beginning and at the end, if it was sent.
+    pub(super) fn battery_v(&self) -> Option<(f64, f64)> {
+        let mut known = self.rows.iter().filter_map(|row| row.battery_v);
+        let first = known.next()?;
+        Some((first, known.next_back().unwrap_or(first)))
     }
 
     /// Lateness of all ticks, sorted, in ms.
     pub(super) fn lateness_ms(&self) -> Vec<f64> {
-        let mut late: Vec<f64> = self.ticks.iter().map(|(_, tick)| tick.timing.late_ms).collect();
+        let mut late: Vec<f64> = self.ticks().map(|(_, tick)| tick.timing.late_ms).collect();
         late.sort_by(f64::total_cmp);
         late
     }
+}
+
+/// The known tags at some moments.
+fn tags(log: &Log, (from, until): (Duration, Duration)) -> Vec<(f64, &Tags)> {
+    let tags = || {
+        let inside = log.tags().filter(move |(at, _)| (from..=until).contains(at));
+        inside.map(|(at, tags)| (at.as_secs_f64(), tags))
+    };
+    let every = tags().count().div_ceil(MOST_TAG_MOMENTS).max(1);
+    // The last one is always among them.
+    let skipped = tags().count().saturating_sub(1) % every;
+    tags().skip(skipped).step_by(every).collect()
+}
+
+/// What numbers refer to. The settings of a log of another version may not be valid in this one: then no tilt is known.
+fn scales(log: &Log, rows: &[Row<'_>]) -> Scales {
+    let settings = Settings::parse("pilot.toml", &log.settings).ok();
+    let tilt_rad =
+        settings.map(|settings| settings.pilot_config(log.z_origin).estimator.limits.tilt_rad);
+    let north_deg =
+        rows.iter().find_map(|row| Some(row.heard?.attitude_deg?[2] - row.tick.estimate?.yaw_deg));
+    Scales { tilt_deg: tilt_rad.map(f64::to_degrees), north_deg }
 }
 
 impl Decision {

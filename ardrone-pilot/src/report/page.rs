@@ -1,144 +1,184 @@
 //! HTML of the report.
 
 use std::fmt::Write as _;
+use std::time::Duration;
 
 use diagnostic::printable;
 use serde_json::json;
 use time::UtcDateTime;
 
 use super::data::Flight;
+use super::events::Kind;
+use super::findings::Finding;
 use super::pictures::EmbeddedPicture;
-use super::plots::{LEFT, Plot, RIGHT, WIDTH};
+use super::series::Series;
 use crate::json;
 use crate::recording::Log;
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Maximum rows of the decision table; the plots show all decisions.
+/// Maximum rows of the tables of decisions and events; the plots show everything.
 const MOST_ROWS: usize = 400;
+const MOST_EVENTS: usize = 1000;
+/// Lateness of ticks is counted in tenths of a millisecond; the last count is all that is later.
+const LATE_COUNTS: usize = 51;
+const LATE_COUNTS_A_MS: f64 = 10.0;
+
+/// What a page is about, besides what happened in the flight.
+pub(super) struct About<'a> {
+    /// The plan's name; empty without one.
+    pub(super) plan: &'a str,
+    /// Whether it is a warning, and text; `None` for a recording that was cut off.
+    pub(super) outcome: Option<(bool, String)>,
+    /// The flight among those of the recording, from 0.
+    pub(super) index: usize,
+    /// Addresses of the pages of all flights.
+    pub(super) links: Vec<String>,
+    /// What led to the outcome.
+    pub(super) findings: Vec<Finding>,
+}
 
 /// The whole page.
 pub(super) fn html(
     log: &Log,
     flight: &Flight<'_>,
-    plots: &[Plot],
+    about: &About<'_>,
     pictures: &[EmbeddedPicture],
 ) -> String {
     let mut page = String::new();
-    let title = escaped(&title(log));
+    let title = escaped(&title(about));
     // Writing to a string cannot fail.
     _ = write!(
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}: flight report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
+         <title>{title}: flight report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n"
     );
-    head(&mut page, log, flight);
-    _ = write!(
-        page,
-        "<div class=\"columns\">\n<div id=\"plots\" data-end=\"{}\" data-width=\"{WIDTH}\" data-left=\"{LEFT}\" \
-         data-right=\"{RIGHT}\">\n",
-        flight.end_s
-    );
-    page += "<p class=\"legend faint\">Background: <span style=\"background:#e9e9e9\">on the ground</span>\
-             <span style=\"background:#eff5fa\">every other step of the plan</span>\
-             <span style=\"background:#f9e7dc\">in the air without a step</span></p>\n";
-    for plot in plots {
-        let Plot { title, over_time, legend, svg, map } = plot;
-        let legend: Vec<String> = legend
-            .iter()
-            .map(|(name, colour)| format!("<span style=\"color:{colour}\">{name}</span>"))
-            .collect();
-        let legend = legend.concat();
-        let (kind, cursor) = match map {
-            _ if *over_time => ("plot", "<div class=\"cursor\"></div>"),
-            Some(_) => ("still map", ""),
-            None => ("still", ""),
-        };
-        let svg = svg.replace("<svg ", &format!("<svg role=\"img\" aria-label=\"{title}\" "));
-        // The keyboard moves the cursor of a plot that has the focus.
-        let focus = if *over_time { " tabindex=\"0\"" } else { "" };
-        _ = writeln!(
-            page,
-            "<h2>{title} <small>{legend}</small></h2>\n<div class=\"{kind}\"{focus}>{svg}{cursor}</div>"
-        );
-        if map.is_some() && !flight.tags.is_empty() {
-            page += "<p class=\"faint\" id=\"tagtext\"></p>\n";
-        }
-    }
+    other_flights(&mut page, about);
+    head(&mut page, log, flight, about);
+    findings(&mut page, &about.findings);
     let picture = if pictures.is_empty() {
         ""
     } else {
         "<canvas id=\"picture\" width=\"640\" height=\"360\" role=\"img\" \
          aria-label=\"what the camera saw\"></canvas>\n<p class=\"faint\" id=\"nopicture\"></p>\n"
     };
+    let tag_text =
+        if flight.tags.is_empty() { "" } else { "<p class=\"faint\" id=\"tagtext\"></p>\n" };
     _ = write!(
         page,
-        "</div>\n<div class=\"why\"><h2>Why?</h2>\n{picture}<div id=\"moment\"><p class=\"faint\">Move over a \
-         plot, or with the arrow keys in it: the moment, what was ordered, and the agent's plan behind it.</p></div>\
-         </div>\n</div>\n"
+        "<noscript><p>The plots and the map are drawn by a script.</p></noscript>\n\
+         <div class=\"columns\">\n<div class=\"side\">\n\
+         <section class=\"card mapcard\"><h2>Map</h2>\n<div class=\"map\"><svg id=\"map\" role=\"img\" \
+         aria-label=\"the way from above: the part flown at the cursor, the drone, targets and tags\"></svg></div>\n\
+         {tag_text}</section>\n\
+         <section class=\"card whycard\"><h2>At the cursor</h2>\n{picture}<div id=\"moment\"></div></section>\n\
+         </div>\n<div id=\"plots\">\n<div id=\"axis\"><div class=\"plot\" id=\"overview\"></div>\n\
+         <div id=\"zoom\"><button id=\"in\" aria-label=\"zoom in\">+</button>\
+         <button id=\"out\" aria-label=\"zoom out\">−</button><button id=\"whole\">whole flight</button>\
+         <span id=\"part\"></span></div></div>\n\
+         <p class=\"legend\"><span><span class=\"band ground\"></span>on the ground</span>\
+         <span><span class=\"band odd\"></span>every other step of the plan</span>\
+         <span><span class=\"band other\"></span>in the air without a step</span>\
+         <span>Ctrl and the wheel, or two fingers, zoom; a drag moves; arrow keys move the cursor</span></p>\n\
+         <div id=\"all\"></div>\n<h3>How late ticks were (a logarithmic scale; the last bar is all that is later)</h3>\n\
+         <svg id=\"late\" role=\"img\" aria-label=\"how late ticks were\" viewBox=\"0 0 330 102\" width=\"330\" height=\"102\">\
+         </svg>\n</div>\n</div>\n"
     );
     timeline(&mut page, flight);
     events(&mut page, flight);
-    let tags: Vec<_> =
-        flight.tags.iter().map(|(at_s, tags)| json!({ "at_s": at_s, "tags": tags.tags })).collect();
-    let decided = json!({
-        "decisions": flight.decisions,
-        "plans": flight.plans,
-        "tags": tags,
-        "map": plots.iter().find_map(|plot| plot.map),
-    });
     _ = write!(
         page,
-        "<script type=\"application/json\" id=\"decided\">{}</script>\n\
+        "</main>\n<script type=\"application/json\" id=\"decided\">{}</script>\n\
          <script type=\"application/json\" id=\"pictures\">{}</script>\n\
          <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
-        json::text(&decided),
+        json::text(&decided(flight)),
         json::text(&json!(pictures)),
     );
     page
 }
 
-/// The plans that were flown.
-fn title(log: &Log) -> String {
-    let mut names = vec![log.plan_name.as_str()];
-    names.extend(log.missions().map(|(_, mission)| mission.name.as_str()));
-    names.retain(|name| !name.is_empty());
-    names.dedup();
-    match names.as_slice() {
-        [] => "flown by orders".to_owned(),
-        [first, .., last] if names.len() > 3 => {
-            format!("{first} to {last}, {} missions", names.len())
-        }
-        names => names.join(", "),
+/// What the script draws.
+fn decided(flight: &Flight<'_>) -> serde_json::Value {
+    let tags: Vec<_> =
+        flight.tags.iter().map(|(at_s, tags)| json!({ "at_s": at_s, "tags": tags.tags })).collect();
+    let mut late = [0_u32; LATE_COUNTS];
+    for late_ms in flight.lateness_ms() {
+        // Lateness is not negative; what is later than the last count is in it.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let count = (late_ms * LATE_COUNTS_A_MS) as usize;
+        late[count.min(LATE_COUNTS - 1)] += 1;
     }
+    json!({
+        "begin": flight.begin_s,
+        "end": flight.end_s,
+        "series": Series::new(&flight.rows, &flight.scales),
+        "bands": flight.bands,
+        "beliefs": flight.beliefs,
+        "states": flight.states,
+        "events": flight.events,
+        "decisions": flight.decisions,
+        "plans": flight.plans,
+        "tags": tags,
+        "late": late.as_slice(),
+    })
+}
+
+/// Links to the other flights of the recording.
+fn other_flights(page: &mut String, about: &About<'_>) {
+    let count = about.links.len();
+    if count < 2 || about.links.iter().any(String::is_empty) {
+        return;
+    }
+    *page += "<nav aria-label=\"flights of this recording\">";
+    for (index, link) in about.links.iter().enumerate() {
+        let number = index + 1;
+        if index == about.index {
+            _ = write!(page, "<b>flight {number} of {count}</b>");
+        } else {
+            _ = write!(page, "<a href=\"{}\">flight {number}</a>", escaped(link));
+        }
+    }
+    *page += "</nav>\n";
+}
+
+/// What led to the outcome, each with its time.
+fn findings(page: &mut String, findings: &[Finding]) {
+    *page += "<section class=\"card\"><h2>What led to it</h2>\n";
+    if findings.is_empty() {
+        *page += "<p>Nothing that was recorded is out of the ordinary.</p>\n";
+    }
+    *page += "<ol id=\"findings\">\n";
+    for Finding { at_s, text } in findings {
+        _ = writeln!(
+            page,
+            "<li><button data-at=\"{at_s}\">{at_s:.2} s</button><span>{}</span></li>",
+            escaped(text)
+        );
+    }
+    *page += "</ol>\n</section>\n";
+}
+
+/// What was flown.
+fn title(about: &About<'_>) -> String {
+    if about.plan.is_empty() { "flown by orders".to_owned() } else { about.plan.to_owned() }
 }
 
 /// Summary at the top.
-fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
-    let date = i64::try_from(log.start.as_secs()).ok();
-    let date = date.and_then(|seconds| UtcDateTime::from_unix_timestamp(seconds).ok());
-    let date = date.map_or_else(String::new, |date| {
-        let (day, time) = (date.date(), date.time());
-        format!(
-            "{:04}-{:02}-{:02} {:02}:{:02} UTC, ",
-            day.year(),
-            u8::from(day.month()),
-            day.day(),
-            time.hour(),
-            time.minute()
-        )
-    });
-    let (plan, drone, version) = (escaped(&title(log)), escaped(&log.drone), escaped(&log.version));
+fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
+    let (plan, drone) = (escaped(&title(about)), escaped(&log.drone));
     _ = write!(
         page,
-        "<h1>{plan}</h1>\n<p class=\"faint\">{date}{}, {drone}, ardrone-pilot {version}</p>\n",
-        log.vehicle
+        "<h1>{plan}</h1>\n<p class=\"faint\">{}{}, {drone}, ardrone-pilot {}</p>\n",
+        date(log, flight.begin_s),
+        log.vehicle,
+        escaped(&log.version)
     );
-    let warning = flight.events.iter().find(|(_, warns, _)| *warns);
-    let warning = warning.map(|(at_s, _, text)| format!("; first warning at {at_s:.1} s: {text}"));
-    let (ill, ended) = match log.outcome() {
-        Some((warns, text)) => (warns, text),
+    let warning = flight.events.iter().find(|event| event.kind == Kind::Warning);
+    let warning =
+        warning.map(|event| format!("; first warning at {:.1} s: {}", event.at_s, event.text));
+    let (ill, ended) = match &about.outcome {
+        Some((warns, text)) => (*warns, text.as_str()),
         None => (true, "the log was cut off: what is here is what was written before"),
     };
     let class = if ill || warning.is_some() { "outcome warn" } else { "outcome" };
@@ -150,20 +190,23 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     let done = flight
         .events
         .iter()
-        .filter(|(_, _, text)| text.starts_with("step ") && text.ends_with(" done"));
+        .filter(|event| event.text.starts_with("step ") && event.text.ends_with(" done"));
     fact("steps done", done.count().to_string());
     fact("in the air", format!("{:.1} s", flight.flown_s()));
     if let Some((begin, end)) = flight.battery_percent() {
         fact("battery", format!("{begin} to {end} %"));
     }
-    let away =
-        flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.x_m.hypot(at.y_m));
+    if let Some((begin, end)) = flight.battery_v() {
+        fact("battery voltage", format!("{begin:.2} to {end:.2} V"));
+    }
+    let estimates = || flight.ticks().filter_map(|(_, tick)| tick.estimate);
+    let away = estimates().map(|at| at.x_m.hypot(at.y_m));
     fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
-    if let Some(last) = flight.ticks.iter().rev().find_map(|(_, tick)| tick.estimate) {
+    if let Some(last) = estimates().next_back() {
         let known = format!("place known to at the end, {}", last.rests_on());
         fact(&escaped(&known), format!("{:.2} m", last.horizontal_deviation_m));
     }
-    let height = flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.z_m);
+    let height = estimates().map(|at| at.z_m);
     fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));
     let late = flight.lateness_ms();
     let at = |share: f64| {
@@ -175,6 +218,24 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     fact("late, 99 of 100 ticks at most", format!("{:.2} ms", at(0.99)));
     fact("ticks", late.len().to_string());
     *page += "</div>\n";
+}
+
+/// Date and time of a moment of the recording, if it has one.
+fn date(log: &Log, at_s: f64) -> String {
+    let begun = Duration::try_from_secs_f64(at_s).unwrap_or_default();
+    let date = i64::try_from(log.start.saturating_add(begun).as_secs()).ok();
+    let date = date.and_then(|seconds| UtcDateTime::from_unix_timestamp(seconds).ok());
+    date.map_or_else(String::new, |date| {
+        let (day, time) = (date.date(), date.time());
+        format!(
+            "{:04}-{:02}-{:02} {:02}:{:02} UTC, ",
+            day.year(),
+            u8::from(day.month()),
+            day.day(),
+            time.hour(),
+            time.minute()
+        )
+    })
 }
 
 /// Table of the agent's decisions and how long each lasted.
@@ -195,8 +256,9 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
             .collect();
         _ = writeln!(
             page,
-            "<tr data-index=\"{index}\"><td class=\"time\">{:.2} s</td><td class=\"time\">{:.2} s</td><td>{}</td>\
+            "<tr data-index=\"{index}\" data-at=\"{}\"><td class=\"time\">{:.2} s</td><td class=\"time\">{:.2} s</td><td>{}</td>\
              <td>{}</td><td>{}</td><td>{} <span class=\"warn\">{}</span></td></tr>",
+            decision.from_s,
             decision.from_s,
             decision.to_s - decision.from_s,
             escaped(&decision.step),
@@ -213,18 +275,24 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
     }
 }
 
-/// Messages shown to the operator during the flight.
+/// Everything that happened, in the order of time.
 fn events(page: &mut String, flight: &Flight<'_>) {
-    *page += "<h2>Messages</h2>\n<table>\n<tbody>\n";
-    for (at_s, warns, text) in &flight.events {
-        let class = if *warns { " class=\"warn\"" } else { "" };
+    *page += "<h2>Events</h2>\n<table id=\"events\">\n<tbody>\n";
+    for event in flight.events.iter().take(MOST_EVENTS) {
+        let class = if event.kind.warns() { " class=\"warn\"" } else { "" };
         _ = writeln!(
             page,
-            "<tr><td class=\"time\">{at_s:.2} s</td><td{class}>{}</td></tr>",
-            escaped(text)
+            "<tr data-at=\"{0}\"><td class=\"time\">{0:.2} s</td><td class=\"faint\">{1}</td><td{class}>{2}</td></tr>",
+            event.at_s,
+            event.kind.name(),
+            escaped(&event.text)
         );
     }
     *page += "</tbody>\n</table>\n";
+    let more = flight.events.len().saturating_sub(MOST_EVENTS);
+    if more > 0 {
+        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots show all of them.</p>");
+    }
 }
 
 /// Escapes text for HTML content and quoted attributes, in one line.

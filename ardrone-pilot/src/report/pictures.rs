@@ -21,9 +21,20 @@ pub(super) struct EmbeddedPicture {
     data: String,
 }
 
-/// The pictures for a page, of a recording that began at `start`. Of a long video only those with which a decoder can
+/// The pictures for a page about a part of a recording that began at `start`. Of a long video only those with which a decoder can
 /// begin, and of a very long one every second of these, or fewer.
-pub(super) fn embedded(pictures: &[RecordedPicture], start: Duration) -> Vec<EmbeddedPicture> {
+pub(super) fn embedded(
+    pictures: &[RecordedPicture],
+    start: Duration,
+    (from, until): (Duration, Duration),
+) -> Vec<EmbeddedPicture> {
+    let inside = |at: Duration| (from..=until).contains(&at.saturating_sub(start));
+    let first = pictures.iter().position(|picture| inside(picture.at)).unwrap_or(pictures.len());
+    let count = pictures[first..].iter().take_while(|picture| inside(picture.at)).count();
+    let end = first + count;
+    // A decoder begins with the entry before them.
+    let first = pictures[..end.min(first + 1)].iter().rposition(|picture| picture.is_entry);
+    let pictures = if count == 0 { &[][..] } else { &pictures[first.unwrap_or(0)..end] };
     let bytes = |pictures: &mut dyn Iterator<Item = &RecordedPicture>| -> usize {
         pictures.map(|picture| picture.data.len()).sum()
     };
@@ -63,8 +74,19 @@ mod tests {
     }
 
     #[test]
+    fn a_page_has_the_pictures_of_its_flight_and_the_entry_before_them() {
+        let part = (Duration::from_secs(25), Duration::from_secs(32));
+        let all = embedded(&pictures(100, 1000), Duration::from_secs(100), part);
+        assert_eq!((all.len(), all[0].at_s, all[0].entry), (13, 20.0, true));
+        let late = (Duration::from_secs(200), Duration::MAX);
+        assert_eq!(embedded(&pictures(100, 1000), Duration::from_secs(100), late), []);
+    }
+
+    #[test]
     fn long_videos_are_thinned() {
         let start = Duration::from_secs(100);
+        let whole = (Duration::ZERO, Duration::MAX);
+        let embedded = |pictures: &[RecordedPicture], start| embedded(pictures, start, whole);
         let all = embedded(&pictures(30, 1000), start);
         assert_eq!((all.len(), all[7].at_s, all[7].entry), (30, 7.0, false));
         let entries = embedded(&pictures(300, 1 << 17), start);

@@ -1,0 +1,160 @@
+//! Everything that happened in a flight, in the order of time: messages, orders, decisions, what was believed, and what the
+//! drone said of itself.
+
+use std::time::Duration;
+
+use diagnostic::printable;
+use serde::Serialize;
+
+use super::rows::Row;
+use super::spans::{Level, Strip};
+use crate::recording::{Entry, Log};
+
+/// Most events of a page.
+const MOST_EVENTS: usize = 3000;
+/// Maximum length of an event's text.
+const LONGEST_TEXT: usize = 400;
+/// Orders that repeat themselves are one event while they follow each other within this time.
+const REPEATED_WITHIN: Duration = Duration::from_secs(1);
+
+/// What an event is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Kind {
+    /// A message to the operators.
+    Message,
+    /// One that warns.
+    Warning,
+    /// An operator's order.
+    Order,
+    /// What the agent ordered the drone to do.
+    Decision,
+    /// A danger that the agent reported, or a veto of the safety monitor.
+    Danger,
+    /// What is believed of navdata has changed.
+    Belief,
+    /// What the drone says of itself has changed.
+    Drone,
+}
+
+impl Kind {
+    /// For people.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Message => "message",
+            Self::Warning => "warning",
+            Self::Order => "order",
+            Self::Decision => "agent",
+            Self::Danger => "danger",
+            Self::Belief => "navdata",
+            Self::Drone => "drone",
+        }
+    }
+
+    /// Whether something is wrong.
+    pub(super) fn warns(self) -> bool {
+        matches!(self, Self::Warning | Self::Danger)
+    }
+}
+
+/// Something that happened.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Event {
+    /// Seconds since the recording's start.
+    pub(super) at_s: f64,
+    pub(super) kind: Kind,
+    /// Printable, in one line.
+    pub(super) text: String,
+}
+
+impl Event {
+    fn new(at_s: f64, kind: Kind, text: &str) -> Self {
+        let text: String = text.chars().take(LONGEST_TEXT).collect();
+        Self { at_s, kind, text: printable(&text).into_owned() }
+    }
+}
+
+/// All events of a part of a recording.
+pub(super) fn events(
+    log: &Log,
+    (from, until): (Duration, Duration),
+    rows: &[Row<'_>],
+    beliefs: &[Strip],
+    states: &[Strip],
+) -> Vec<Event> {
+    let mut events = Vec::new();
+    let mut repeated: Option<(Duration, String)> = None;
+    for (at, entry) in log.entries.iter().filter(|(at, _)| (from..=until).contains(at)) {
+        let at_s = at.as_secs_f64();
+        let kind = |warns: bool| if warns { Kind::Warning } else { Kind::Message };
+        match entry {
+            Entry::Event { warns, text } => events.push(Event::new(at_s, kind(*warns), text)),
+            Entry::Outcome { warns, text } => {
+                events.push(Event::new(at_s, kind(*warns), &format!("outcome: {text}")));
+            }
+            Entry::Order(order) => {
+                let text = order.text();
+                let again = repeated.take().is_some_and(|(last, of)| {
+                    of == text && at.saturating_sub(last) <= REPEATED_WITHIN
+                });
+                if order.repeats() {
+                    repeated = Some((*at, text.clone()));
+                }
+                if !again {
+                    events.push(Event::new(at_s, Kind::Order, &text));
+                }
+            }
+            _ => {}
+        }
+    }
+    decisions(&mut events, rows);
+    for strip in beliefs {
+        changes(&mut events, strip, Kind::Belief, Level::Wrong);
+    }
+    for strip in states {
+        changes(&mut events, strip, Kind::Drone, Level::Plain);
+    }
+    events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
+    events.truncate(MOST_EVENTS);
+    events
+}
+
+/// What the agent ordered, and what it or the safety monitor said, when it changed.
+fn decisions(events: &mut Vec<Event>, rows: &[Row<'_>]) {
+    let (mut command, mut danger, mut veto) = (None, None, None);
+    for row in rows {
+        let agent = &row.tick.agent;
+        if command.replace(agent.command.as_str()).is_some_and(|last| last != agent.command) {
+            let because = agent.plans.first().map(|plan| format!(" (line {})", plan.line));
+            let text = format!("{}{}", agent.command, because.unwrap_or_default());
+            events.push(Event::new(row.at_s, Kind::Decision, &text));
+        }
+        if agent.danger != danger {
+            danger.clone_from(&agent.danger);
+            if let Some(danger) = &danger {
+                events.push(Event::new(row.at_s, Kind::Danger, &format!("danger: {danger}")));
+            }
+        }
+        if row.tick.veto != veto {
+            veto.clone_from(&row.tick.veto);
+            let text = match &veto {
+                Some(veto) => format!("safety monitor: {veto}"),
+                None => "safety monitor: no longer".to_owned(),
+            };
+            events.push(Event::new(row.at_s, Kind::Danger, &text));
+        }
+    }
+}
+
+/// The beginnings of a strip's spans that are at least this serious, and what follows them.
+fn changes(events: &mut Vec<Event>, strip: &Strip, kind: Kind, least: Level) {
+    let serious = |level: Level| level as u8 >= least as u8;
+    let mut last: Option<Level> = None;
+    for span in &strip.spans {
+        let follows = last.replace(span.level).is_some_and(serious);
+        if serious(span.level) || follows {
+            let text = format!("{}: {}", strip.name, span.text);
+            events.push(Event::new(span.from_s, kind, &text));
+        }
+    }
+}
