@@ -22,6 +22,8 @@ const TRACK: Duration = Duration::from_millis(100);
 pub struct SimulatedFlight {
     /// How it ended; `None` if it did not within 20 minutes.
     pub outcome: Option<Outcome>,
+    /// Index of the last step that was begun.
+    pub step: Option<usize>,
     /// Time in the air.
     pub duration: Duration,
     /// The charge that it took.
@@ -60,6 +62,7 @@ pub fn fly(
     let mut driver = Driver::new(Vehicle::flying(plan, config)?, world);
     let charged = driver.world().truth().battery_percent;
     let (mut outcome, mut warnings, mut track) = (None, Vec::new(), Vec::new());
+    let mut begun = None;
     let mut lifted: Option<Duration> = None;
     let mut landed = Duration::ZERO;
     while outcome.is_none() && driver.now() < LONGEST {
@@ -67,6 +70,7 @@ pub fn fly(
         let since = now.saturating_sub(lifted.unwrap_or(now));
         driver.step(|_, passed| match passed {
             Passed::Told(Telemetry::Ended(ended, _)) => outcome = Some(ended),
+            Passed::Told(Telemetry::Event(FlightEvent::StepStarted { step })) => begun = Some(step),
             Passed::Told(Telemetry::Event(event)) if event.warns() => warnings.push((since, event)),
             _ => {}
         });
@@ -83,7 +87,7 @@ pub fn fly(
     }
     let duration = landed.saturating_sub(lifted.unwrap_or(landed));
     let battery_percent = charged - driver.world().truth().battery_percent;
-    Ok(SimulatedFlight { outcome, duration, battery_percent, track, warnings })
+    Ok(SimulatedFlight { outcome, step: begun, duration, battery_percent, track, warnings })
 }
 
 /// As the vehicle perceived it: a recorded flight begins and ends by the same sign.

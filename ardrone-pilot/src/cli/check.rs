@@ -20,21 +20,27 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     if arguments.tags || !arguments.tag.is_empty() {
         settings.use_tags(&arguments.tag)?;
     }
-    let limits = settings.pilot_config(arguments.z_origin.into()).limits;
+    let config = settings.pilot_config(arguments.z_origin.into());
+    let limits = config.limits;
     let text = super::read("the plan", &arguments.plan)?;
     let name = arguments.plan.display().to_string();
     let source = Source { name: &name, text: &text };
     let surveyed = settings.surveyed_tags();
-    let checked = CheckedPlan::new(&text, &limits, surveyed.as_deref());
+    let mut checked = CheckedPlan::new(&text, &limits, surveyed.as_deref());
+    checked.simulate(&text, &config, surveyed.as_deref());
     let printed = if arguments.json {
         json::text_in_lines(&checked.json(&name, &text)) + "\n"
     } else {
-        let CheckedPlan { plan, diagnostics, given, expectations } = &checked;
+        let CheckedPlan { plan, diagnostics, given, expectations, falls_short } = &checked;
         let table = plan.as_ref().map(|plan| Table { plan, expectations }.to_string());
         let table = table.unwrap_or_default();
         let problems = render_all(diagnostics, &source);
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
         let verdict = match (errors, diagnostics.len() + given.len()) {
+            (0, warnings) if *falls_short => {
+                let plural = if warnings == 1 { "" } else { "s" };
+                format!("{name} can be flown, but not to its end; {warnings} warning{plural}")
+            }
             (0, 0) => format!("{name} can be flown"),
             (0, 1) => format!("{name} can be flown; 1 warning"),
             (0, warnings) => format!("{name} can be flown; {warnings} warnings"),
