@@ -1,10 +1,11 @@
 //! Command-line arguments.
 
 use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, VIDEO_PORT};
 use autopilot::plan;
+use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -213,6 +214,31 @@ pub(super) enum ZOrigin {
     Floor,
 }
 
+impl Arguments {
+    /// The arguments of this process. Wrong ones are reported, and end it.
+    pub(super) fn of_process() -> Self {
+        Self::try_parse().unwrap_or_else(|error| advised(error).exit())
+    }
+}
+
+/// An error with the advice that the parser cannot have: a file alone is most likely a plan.
+fn advised(mut error: clap::Error) -> clap::Error {
+    let word = match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(word)) => word.clone(),
+        _ => return error,
+    };
+    let path = Path::new(&word);
+    if path.is_file() || path.extension().is_some() {
+        let how = if path.extension().is_some_and(|extension| extension == "mcap") {
+            format!("write `report {word}` for a page about a recorded flight")
+        } else {
+            format!("write `--plan {word}` to fly a plan, and `check {word}` to check it")
+        };
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![how.into()]));
+    }
+    error
+}
+
 impl Fly {
     pub(super) fn z_origin(&self) -> plan::ZOrigin {
         self.z_origin.into()
@@ -247,6 +273,20 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_file_alone_is_taken_for_a_plan_or_a_recording() {
+        let said = |word| {
+            let error = Arguments::try_parse_from(["ardrone-pilot", word]).unwrap_err();
+            advised(error).to_string()
+        };
+        let plan = said("square.txt");
+        assert!(plan.contains("write `--plan square.txt` to fly a plan"), "{plan}");
+        let recording = said("flights/one.mcap");
+        assert!(recording.contains("write `report flights/one.mcap`"), "{recording}");
+        assert!(!said("chek").contains("--plan "), "a mistyped word is no file");
+        assert!(said("chek").contains("check"));
     }
 
     #[test]

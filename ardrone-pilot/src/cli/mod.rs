@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use autopilot::plan::PlanError;
-use clap::{CommandFactory as _, Parser as _};
+use clap::CommandFactory as _;
 use clap_complete::Shell;
 use mock_drone::server::ServerError;
 
@@ -105,7 +105,7 @@ impl CommandError {
 
 /// Runs the program and returns its exit status.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::of_process();
     let warnings = Warnings::default();
     tracing_subscriber::fmt()
         .with_writer(warnings.clone())
