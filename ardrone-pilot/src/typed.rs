@@ -59,7 +59,7 @@ static HELP: LazyLock<String> = LazyLock::new(|| {
     let words = WORDS.iter().map(|Word { name, note, .. }| format!("{name}{note}"));
     let commands = LANGUAGE.iter().map(|declared| declared.name);
     format!(
-        "{}; anything else is appended to the mission: {}",
+        "orders:\n  {}\ncommands, which are appended to the mission:\n  {}",
         words.collect::<Vec<_>>().join(", "),
         commands.collect::<Vec<_>>().join(", ")
     )

@@ -21,7 +21,7 @@ use rustix::termios::{
 use super::prompt::{Edited, Prompt, PromptLine};
 use super::terminal;
 use crate::flight::Controls;
-use crate::typed;
+use crate::typed::{self, TypedError};
 
 /// Summary of the keys.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
@@ -143,6 +143,7 @@ impl Drop for Keys {
 
 fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended: &AtomicBool) {
     let start = Instant::now();
+    let answers = line.clone();
     let mut prompt = Prompt::new(line);
     let mut keymap = Keymap::default();
     while !ended.load(Ordering::Relaxed) {
@@ -156,11 +157,13 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
         while let Ok(true) = poll(Duration::ZERO) {
             let Ok(event) = read() else { return };
             let Some(key) = pressed(&event) else { continue };
+            // Any key closes the answer that is shown, and does what it does besides.
+            _ = answers.take_answer();
             if prompt.is_open() {
                 if let Edited::Entered(line) = prompt.key(key, typed::completions)
                     && let Err(error) = typed::obey(&line, limits, controls, Operator::TERMINAL)
                 {
-                    tracing::warn!("{line}: {}", terminal::Causes(&error));
+                    answers.show_answer(answer(&line, &error));
                 }
                 continue;
             }
@@ -170,6 +173,14 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
                 None => {}
             }
         }
+    }
+}
+
+/// What is said to a typed line that was not carried out.
+fn answer(line: &str, error: &TypedError) -> String {
+    match error {
+        TypedError::Help => error.to_string(),
+        _ => format!(":{line}\n{}", terminal::Causes(error)),
     }
 }
 

@@ -36,6 +36,9 @@ impl Progress {
     }
 
     pub(super) fn show(&mut self, message: &Message) {
+        if let Some(answer) = self.prompt.take_answer() {
+            self.print_line(&answer);
+        }
         match &message.content {
             Content::Telemetry(at, telemetry, _) => self.tell(*at, telemetry),
             Content::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),

@@ -1,6 +1,6 @@
 //! The prompt for typed orders, with history and completion.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crossterm::event::KeyCode;
 
@@ -9,18 +9,43 @@ const LONGEST: usize = 500;
 /// Capacity of the history.
 const REMEMBERED: usize = 100;
 
-/// The line being edited, shared with the display that draws it.
+/// The line being edited and the answer to the last one, shared with the display that draws them.
 #[derive(Debug, Clone, Default)]
-pub(super) struct PromptLine(Arc<Mutex<Option<String>>>);
+pub(super) struct PromptLine(Arc<Mutex<Shown>>);
+
+#[derive(Debug, Default)]
+struct Shown {
+    line: Option<String>,
+    answer: Option<String>,
+}
 
 impl PromptLine {
+    fn lock(&self) -> MutexGuard<'_, Shown> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// The text to display while the prompt is open.
     pub(super) fn shown(&self) -> Option<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.lock().line.clone()
+    }
+
+    /// The answer to the last line, in several lines, until it is closed.
+    pub(super) fn answer(&self) -> Option<String> {
+        self.lock().answer.clone()
+    }
+
+    /// As [`answer`](Self::answer), which is closed by that.
+    pub(super) fn take_answer(&self) -> Option<String> {
+        self.lock().answer.take()
+    }
+
+    /// Shows an answer.
+    pub(super) fn show_answer(&self, answer: String) {
+        self.lock().answer = Some(answer);
     }
 
     fn show(&self, line: Option<String>) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = line;
+        self.lock().line = line;
     }
 }
 

@@ -1,6 +1,7 @@
 //! Full-screen terminal display: position, activity and decisions.
 
 mod tags;
+mod texts;
 mod view;
 
 use std::collections::VecDeque;
@@ -15,6 +16,7 @@ use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 use tracing_subscriber::fmt::MakeWriter;
 
@@ -28,6 +30,9 @@ const LEAST: (u16, u16) = (70, 20);
 /// Of a larger terminal only this much is drawn on: one may say that it has 65535 columns and rows, whose cells need more
 /// memory than there is.
 const MOST: (u16, u16) = (500, 200);
+
+/// Colour of what is wrong.
+const WARNING: Color = Color::LightRed;
 
 /// Draws the flight, and restores the terminal at the end.
 pub(super) struct Screen {
@@ -97,6 +102,7 @@ impl Screen {
 
     fn draw(&mut self) {
         self.view.prompt = self.prompt.shown();
+        self.view.answer = self.prompt.answer();
         // The system signals the flight when the terminal is gone.
         if let Ok(area) = area()
             && area != self.area
@@ -184,11 +190,39 @@ impl MakeWriter<'_> for Warnings {
 
 #[cfg(test)]
 mod tests {
+    use ratatui::backend::TestBackend;
+
+    use super::view::draw;
+    use super::*;
+    use crate::typed;
+
+    #[test]
+    fn what_is_said_of_a_typed_line_can_be_read_to_its_end() {
+        let mut view = View::new(&FlightLimits::default());
+        let error = typed::parse("gotto 1 1", &FlightLimits::default()).unwrap_err();
+        view.answer = Some(format!(":gotto 1 1\n{error}"));
+        view.warn("press e again within 2 s to cut the motors: the drone will fall");
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        insta::assert_snapshot!(terminal.backend());
+        view.answer = Some(typed::parse("help", &FlightLimits::default()).unwrap_err().to_string());
+        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        let shown = terminal.backend().to_string();
+        for word in ["load FILE", "(after an emergency)", "setMaxControl", "landOnTag"] {
+            assert!(shown.contains(word), "{word}\n{shown}");
+        }
+        assert!(!shown.contains("\\u{a}"), "{shown}");
+        for (columns, rows) in [(1, 1), (20, 5)] {
+            let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+            terminal.draw(|frame| draw(frame, &view)).unwrap();
+        }
+    }
+
     #[test]
     fn colours_are_taken_away() {
         let line = "\x1b[33m WARN\x1b[0m press \x1b[1me\x1b[0m again";
-        assert_eq!(super::without_colours(line), "WARN press e again");
-        assert_eq!(super::without_colours("plain"), "plain");
-        assert_eq!(super::without_colours("\x1b"), "");
+        assert_eq!(without_colours(line), "WARN press e again");
+        assert_eq!(without_colours("plain"), "plain");
+        assert_eq!(without_colours("\x1b"), "");
     }
 }

@@ -27,9 +27,9 @@ pub(super) fn print_message(message: impl Display) {
     write(&format!("{}\n", printable_lines(&message.to_string())));
 }
 
-/// Prints one line in place of the overwritten status line.
-pub(super) fn replace_line(line: &str) {
-    write(&format!("{CLEAR}{}\n", printable(line)));
+/// Prints lines in place of the overwritten status line.
+pub(super) fn replace_line(lines: &str) {
+    write(&format!("{CLEAR}{}\n", printable_lines(lines)));
 }
 
 /// Shows a status line that will be overwritten.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{FlightEvent, NotReady, Phase, RestsOn, Status, Telemetry};
-use diagnostic::printable;
+use diagnostic::{printable, printable_lines};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -15,7 +15,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
-use super::tags;
+use super::{WARNING, tags, texts};
 use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
@@ -29,7 +29,6 @@ const LEAST_STEPS: u16 = 3;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
-const WARNING: Color = Color::LightRed;
 
 /// State of the display.
 #[derive(Debug)]
@@ -39,6 +38,8 @@ pub(super) struct View {
     not_ready: Vec<String>,
     /// Text of the open prompt.
     pub(super) prompt: Option<String>,
+    /// Answer to the last line that was typed.
+    pub(super) answer: Option<String>,
     limits: FlightLimits,
     at: Duration,
     status: Option<Status>,
@@ -56,6 +57,7 @@ impl View {
             steps: Vec::new(),
             not_ready: Vec::new(),
             prompt: None,
+            answer: None,
             limits: *limits,
             at: Duration::ZERO,
             status: None,
@@ -72,7 +74,7 @@ impl View {
 
     /// As [`View::print_line`], but marked as a warning, and printed again when the screen closes.
     pub(super) fn warn(&mut self, line: &str) {
-        remember(&mut self.messages, (printable(line).into_owned(), true));
+        remember(&mut self.messages, (printable_lines(line).into_owned(), true));
     }
 
     /// All warnings.
@@ -196,16 +198,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
         List::new(lines).block(Block::bordered().title("decisions: plans and their lines")),
         decisions,
     );
-    let skipped = shown(view.messages.len(), messages);
-    let lines = view.messages.iter().skip(skipped);
-    let lines: Vec<ListItem<'_>> = lines
-        .map(|(text, warns)| {
-            let style = if *warns { Style::new().fg(WARNING) } else { Style::new() };
-            ListItem::new(text.as_str()).style(style)
-        })
-        .collect();
-    frame.render_widget(List::new(lines).block(Block::bordered().title("messages")), messages);
+    texts::draw_messages(frame, messages, &view.messages);
     frame.render_widget(foot_line(view), keys);
+    texts::draw_answer(frame, body, view.answer.as_deref());
 }
 
 /// The prompt, or the summary of keys.
