@@ -117,7 +117,7 @@ fn all_events_are_on_the_time_axis() {
 #[test]
 fn each_flight_of_a_run_has_its_page() {
     let mut log = log(SQUARE, "");
-    let length = log.ticks().last().unwrap().0 + Duration::from_secs(60);
+    let length = log.ticks().last().unwrap().0 + Duration::from_mins(1);
     let again: Vec<(Duration, Entry)> =
         log.entries.iter().map(|(at, entry)| (*at + length, entry.clone())).collect();
     let single = Reports::new(&log, &[]);

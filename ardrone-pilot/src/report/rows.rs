@@ -7,7 +7,7 @@ use ardrone_link::navdata::{DroneState, Packet};
 
 use crate::recording::{DecodedNavdata, Entry, Log, Tick};
 
-/// Decoded navdata that are older are not shown: they say nothing of the moment.
+/// Navdata that are older are not shown: they say nothing of the moment.
 const FRESH_S: f64 = 0.3;
 /// Time over which missing packets are counted.
 const MISSING_OVER_S: f64 = 1.0;
@@ -24,7 +24,7 @@ pub(super) struct Row<'a> {
     pub(super) heard: Option<&'a DecodedNavdata>,
     /// Age of the newest packet, in seconds.
     pub(super) age_s: Option<f64>,
-    /// The drone's state in it.
+    /// The drone's state in it, if it is fresh.
     pub(super) state: Option<DroneState>,
     /// Share of the packets of the last second that did not arrive.
     pub(super) missing: f64,
@@ -53,7 +53,7 @@ pub(super) fn rows(log: &Log, (from, until): (Duration, Duration)) -> Vec<Row<'_
                         tick,
                         heard: fresh.map(|(_, navdata)| navdata),
                         age_s: heard.at_s.map(|heard_s| (at_s - heard_s).max(0.0)),
-                        state: heard.state,
+                        state: heard.state.filter(|_| heard.is_fresh(at_s)),
                         missing: heard.missing(at_s),
                         restarted,
                         battery_v: heard.battery_v,
@@ -97,6 +97,11 @@ impl Heard {
             self.sequence = last;
             self.arrivals.push_back((at_s, 0));
         }
+    }
+
+    /// Whether what was heard last still tells of the moment.
+    fn is_fresh(&self, at_s: f64) -> bool {
+        self.at_s.is_some_and(|heard_s| at_s - heard_s < FRESH_S)
     }
 
     fn missing(&mut self, at_s: f64) -> f64 {
