@@ -226,6 +226,27 @@ fn a_plan_can_be_checked_without_a_drone() {
     assert!(stderr(&output).contains("cannot write the drawing /no/such/folder/plan.svg"));
 }
 
+/// Each step of it is good; the place is known worse with every metre.
+#[test]
+fn a_plan_that_would_be_landed_on_the_way_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.txt");
+    let round = "goto 0 2 0 0\ngoto 2 2 0 0\ngoto 2 0 0 0\ngoto 0 0 0 0\n".repeat(15);
+    std::fs::write(&path, format!("takeoff\nsetStayTime 2\n{round}land\n")).unwrap();
+    let output = pilot(&["check", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("s in the air, at step ") && text.contains("uncertainty is too large"));
+    assert!(text.ends_with("long.txt can be flown, but not to its end; 1 warning\n"), "{text}");
+}
+
+#[test]
+fn a_file_alone_is_taken_for_a_plan() {
+    let output = pilot(&["square.txt"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("write `--plan square.txt`"), "{}", stderr(&output));
+}
+
 #[test]
 fn a_bad_plan_is_reported_to_programs_too() {
     let folder = tempfile::tempdir().unwrap();

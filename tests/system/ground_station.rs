@@ -247,6 +247,19 @@ fn the_flights_of_a_run_are_told_apart() {
     assert!(from + value(&short, "length_s") < until, "{found}");
     assert!(value(&short, "length_s") + 2.0 < value(&long, "length_s"), "{found}");
     assert!(value(&short, "farthest_m") < 0.4 && value(&long, "farthest_m") > 0.8, "{found}");
+    // Each has its report, with links to the other one; without a number it is the last one's.
+    for (path, number, plan, link) in [
+        ("report/0", 1, "short.txt", "href=\"1\""),
+        ("report/1", 2, "long.txt", "href=\"0\""),
+        ("report", 2, "long.txt", "href=\"report/0\""),
+    ] {
+        let page = station.request("GET", &format!("/flights/flights.mcap/{path}"), "", "");
+        let heading = format!("<h1>{plan}</h1>");
+        let which = format!("<b>flight {number} of 2</b>");
+        assert!([&heading, &which, link].iter().all(|part| page.contains(*part)), "{path}");
+    }
+    let missing = station.request("GET", "/flights/flights.mcap/report/2", "", "");
+    assert!(missing.contains(" 404 ") && missing.contains("has no flight 3"), "{missing}");
     looked_back_at(&mut chromium, &tab);
     station.end();
 }

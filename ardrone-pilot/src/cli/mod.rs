@@ -274,3 +274,17 @@ fn read(what: &'static str, path: &Path) -> Result<String, CommandError> {
         source,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_page_of_several_has_a_number_and_an_address() {
+        let output = Path::new("logs/a flight.html");
+        assert_eq!(report_name(output, 0, 1), output);
+        assert_eq!(report_name(output, 1, 3), Path::new("logs/a flight-2.html"));
+        assert_eq!(report_name(Path::new("page"), 0, 2), Path::new("page-1"));
+        assert_eq!(address_of("a flight-2.html"), "./a%20flight-2.html");
+    }
+}
