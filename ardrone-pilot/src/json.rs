@@ -140,6 +140,7 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "target": target.map(|target| Place::from(&target)),
         "distance_m": distance_m,
         "battery_percent": battery_percent,
+        "battery_v": status.battery_v,
         "horizontal_deviation_m": status.horizontal_deviation_m,
         "horizontal_deviation_holds": status.rests_on.to_string(),
         "rests_on": status.rests_on.name(),

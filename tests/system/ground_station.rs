@@ -201,7 +201,7 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
     let report = "fetch(document.querySelector('#report').src).then((response) => response.text())\
         .then((text) => (window.reported = text)); true";
-    chromium.wait(&tab, "document.querySelector('#report').src.endsWith('/report')");
+    chromium.wait(&tab, "document.querySelector('#report').src.endsWith('/report/0')");
     chromium.evaluate(&tab, report);
     chromium.wait(&tab, "(window.reported ?? '').includes('<h2>Decisions')");
     // The steps have the words of the plan that was loaded.

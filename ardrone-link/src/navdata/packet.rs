@@ -134,11 +134,6 @@ impl<'a> Packet<'a> {
         self.payload(0).and_then(Demo::read)
     }
 
-    /// The sensors' raw readings and the battery's voltage, if included.
-    pub fn raw_measures(&self) -> Option<RawMeasures> {
-        self.payload(2).and_then(RawMeasures::read)
-    }
-
     /// What the cameras have found, if it is in the packet.
     pub fn vision_detect(&self) -> Option<VisionDetect> {
         self.payload(16).and_then(VisionDetect::read)

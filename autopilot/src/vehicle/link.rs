@@ -44,8 +44,8 @@ impl Vehicle {
     /// What the session does not need: the battery's voltage, roundels, and the flight recorder's position, which is not in every packet.
     fn handle_further_options(&mut self, now: Duration, packet: &Packet<'_>) {
         // No battery that lets a drone send has 0 V: it is not measured.
-        if let Some(raw) = packet.raw_measures().filter(|raw| raw.battery_v > 0.0) {
-            self.battery_v = Some((now, raw.battery_v));
+        if let Some(millivolts) = packet.battery_mv().filter(|millivolts| *millivolts > 0) {
+            self.battery_v = Some((now, f64::from(millivolts) / 1000.0));
         }
         if self.config.estimator.tags.is_some() && packet.demo().is_some() {
             self.flight.estimator.see(&sights(packet));

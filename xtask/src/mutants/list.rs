@@ -292,7 +292,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the flight ends before the drone is down",
         WATCH,
-        "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
+        "let landed = !blind && self.on_ground() && heard_later;",
         "let landed = !blind;",
     ),
     // Streams of orders.

@@ -131,7 +131,7 @@ const flights = (() => {
       element.onclick = () => action(element);
       place.append(element);
     };
-    if (!recording.problem) button("Report", () => report(file));
+    if (!recording.problem) button("Report", () => report(file, index));
     if (index !== undefined) button("Play", () => play(recording.name, index, time));
     if (index > 0) return place;
     button("Download", () => {
@@ -155,10 +155,11 @@ const flights = (() => {
     return place;
   }
 
-  function report(file) {
+  // Of one flight, or of a recording in which nothing flew.
+  function report(file, index) {
     $("comparison").hidden = true;
     $("report").hidden = false;
-    $("report").src = `flights/${file}/report${query}`;
+    $("report").src = `flights/${file}/report${index === undefined ? "" : `/${index}`}${query}`;
     $("report").scrollIntoView({ block: "nearest" });
   }
 
