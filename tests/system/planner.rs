@@ -176,17 +176,12 @@ fn numbers_are_not_cut_and_count_the_same_everywhere() {
         .querySelector('i').textContent";
     chromium.wait(&tab, &format!("{listed} !== ''"));
     let listed = chromium.evaluate(&tab, listed);
-    assert_eq!(
-        chromium.evaluate(&tab, "document.querySelector('#drafts text').textContent"),
-        listed
-    );
+    let same = format!("document.querySelector('#drafts text')?.textContent === {listed}");
+    chromium.wait(&tab, &same);
     chromium.click(&tab, "#load", [0.0; 2]);
     chromium
         .wait(&tab, "view === 'fly' && document.querySelectorAll('#targets text').length === 1");
-    assert_eq!(
-        chromium.evaluate(&tab, "document.querySelector('#targets text').textContent"),
-        listed
-    );
+    chromium.wait(&tab, &same.replace("#drafts", "#targets"));
     let step = "[...document.querySelectorAll('#steps li')].find((item) => item.textContent.includes('goto')).textContent";
     let step = chromium.evaluate(&tab, step);
     assert!(step.as_str().unwrap().starts_with(listed.as_str().unwrap()), "{step}, {listed}");
