@@ -10,8 +10,8 @@ const dangers = (() => {
   const [LATE_S, LOST_S] = [0.5, 2];
   // Position uncertainty from which the place is doubtful, in metres.
   const DOUBTFUL_M = 1;
-  // At this charge and less: land soon, and land now, in percent.
-  const [LOW, EMPTY] = [20, 12];
+  // At this charge and less it must land soon, in percent: the agent's `warningBattery`.
+  const LOW = 20;
   const MUTED = "ardrone-pilot muted";
 
   let warned = { text: "", at: -Infinity }; // the last event that warns
@@ -36,15 +36,15 @@ const dangers = (() => {
       return { level: "alarm", text: `No data from ardrone-pilot${since}: what is shown is old. Orders of this page do not arrive; use the terminal.` };
     }
     if (behind > SILENCE) return { level: "alarm", text: `This page is ${seconds(behind)} behind: the connection is slow.` };
-    if (!status) return null;
+    if (!status || !flight) return null;
     if (status.emergency) {
       return { level: "alarm", text: "EMERGENCY: the motors are off. Keep away until the drone lies still. If it is whole and stands upright: Recover, then start again." };
     }
-    const flies = ["flying", "landing"].includes(status.phase);
+    const flies = isAirborne();
     const age = status.navdata_age_s;
     if (flies && age > LOST_S) return { level: "alarm", text: `LINK LOST for ${age.toFixed(0)} s: the drone is ordered to land. Go nearer with this machine, and keep people away.` };
     if (status.landing && !status.landing_ordered) return { level: "alarm", text: `LANDING: ${status.landing}. Keep the ground below it free.` };
-    if (flies && status.battery_percent !== null && status.battery_percent <= EMPTY) return { level: "alarm", text: `BATTERY at ${status.battery_percent} %: land now.` };
+    if (flies && status.battery_percent !== null && status.battery_percent <= flight.battery_lands_percent) return { level: "alarm", text: `BATTERY at ${status.battery_percent} %: land now.` };
     if (flies && status.contradicted_by) return { level: "alarm", text: `THE PLACE IS WRONG: ${status.contradicted_by} contradicts it. Watch the drone itself; land, or fly it by hand.` };
     if (flies && age > LATE_S) return { level: "warn", text: `No navdata for ${age.toFixed(1)} s: the drone hovers until they come.` };
     if (flies && status.battery_percent !== null && status.battery_percent <= LOW) return { level: "warn", text: `Battery at ${status.battery_percent} %: land soon.` };

@@ -208,7 +208,7 @@ function draw() {
   requestAnimationFrame(draw);
   const now = performance.now();
   // What is played is no longer looked at once something flies.
-  flights.advance((now - drawnAt) / 1000, status && ["flying", "landing"].includes(status.phase));
+  flights.advance((now - drawnAt) / 1000, isAirborne());
   drawnAt = now;
   drawAdvice();
   drawButtons();
@@ -256,8 +256,7 @@ function drawButtons() {
   const emergency = live && status && status.emergency;
   $("recover").disabled = !emergency;
   // The bright one is the one that helps.
-  const grounded = !live || !status || !["flying", "landing"].includes(status.phase);
-  $("land").classList.toggle("prime", !grounded && !emergency);
+  $("land").classList.toggle("prime", live && isAirborne() && !emergency);
   $("start").classList.toggle("prime", !$("start").disabled && !emergency);
   $("recover").classList.toggle("prime", Boolean(emergency));
   const now = performance.now();
@@ -421,14 +420,14 @@ function confirmed(question, does) {
 }
 
 // Keys as in the terminal. One that is held is one order, and letters that are typed are letters.
+const isTyped = ({ target }) => /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && target.type !== "checkbox";
+const isAirborne = () => Boolean(status && ["flying", "landing"].includes(status.phase));
 document.addEventListener("keydown", (event) => {
-  const writes = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName) && event.target.type !== "checkbox";
   if (event.key === "Escape") wanted = null;
-  if (writes || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-  const airborne = status && ["flying", "landing"].includes(status.phase);
+  if (isTyped(event) || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
   const does = {
     // In the air it holds, whatever button was pressed last; on the ground it presses a button, as everywhere.
-    " ": airborne && "hold",
+    " ": isAirborne() && "hold",
     l: "land",
     r: status && status.mission_waits && "resume",
   }[event.key.toLowerCase()];
@@ -437,9 +436,9 @@ document.addEventListener("keydown", (event) => {
   else if (!event.repeat) order({ order: does });
   event.preventDefault();
 });
-// A button that has the focus is pressed by the release of the space bar.
+// What has the focus is pressed by the release of the space bar.
 document.addEventListener("keyup", (event) => {
-  if (event.key === " " && event.target.tagName === "BUTTON" && status && ["flying", "landing"].includes(status.phase)) event.preventDefault();
+  if (event.key === " " && isAirborne() && !isTyped(event)) event.preventDefault();
 });
 
 // A page in the background is not drawn, and must be heard all the same.

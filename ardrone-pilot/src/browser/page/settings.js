@@ -75,7 +75,7 @@ const settings = (() => {
   $("ofsettings").oninput = filter;
   $("forgetsettings").onclick = () => list();
   $("savesettings").onclick = async () => {
-    if (status && ["flying", "landing"].includes(status.phase)) {
+    if (isAirborne()) {
       note("Settings are changed on the ground.", true);
       return;
     }
