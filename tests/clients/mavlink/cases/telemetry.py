@@ -141,9 +141,9 @@ def test_all_modes_are_listed_at_once(station):
 
 def test_capabilities_are_those_that_exist(station):
     version = station.request(148)[1]
-    for name, bit in (("MISSION_INT", 4), ("COMMAND_INT", 8), ("LOCAL_NED", 128), ("TERMINATION", 2048), ("MAVLINK2", 8192)):
+    for name, bit in (("MISSION_INT", 4), ("COMMAND_INT", 8), ("LOCAL_NED", 128), ("TERMINATION", 2048), ("MAVLINK2", 8192), ("MISSION_FENCE", 0x4000)):
         assert version.capabilities & bit, f"{name} is missing in {version.capabilities:#x}"
-    for name, bit in (("fence", 0x4000), ("rally", 0x8000), ("FTP", 32), ("compass calibration", 4096)):
+    for name, bit in (("rally", 0x8000), ("FTP", 32), ("compass calibration", 4096)):
         assert not version.capabilities & bit, f"{name} is claimed"
 
 
