@@ -259,8 +259,11 @@ impl Chromium {
     pub(crate) fn hold_key(&mut self, tab: &Tab, key: &str, code: &str) {
         let repeats = self.held.as_deref() == Some(code);
         self.held = Some(code.to_owned());
-        let event =
-            json!({ "type": "rawKeyDown", "key": key, "code": code, "autoRepeat": repeats });
+        let event = json!({
+            "type": "keyDown", "key": key, "code": code, "autoRepeat": repeats,
+            "text": if key == "Enter" { "\r" } else { "" },
+            "windowsVirtualKeyCode": if key == "Enter" { 13 } else { 0 },
+        });
         self.call(Some(tab), "Input.dispatchKeyEvent", &event);
     }
 

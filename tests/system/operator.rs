@@ -69,7 +69,7 @@ fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
     }
     chromium.wait(&tab, "document.querySelector('#alarm').innerText.startsWith('EMERGENCY')");
     chromium.wait(&tab, "document.querySelector('#phase').textContent === 'EMERGENCY'");
-    assert!(text(&mut chromium, &tab, "#alarm").contains("Recover"));
+    chromium.wait(&tab, "document.querySelector('#alarm').textContent.includes('Recover')");
     assert_eq!(chromium.evaluate(&tab, "document.querySelector('#bar').className"), "alarm");
     let heard = chromium.evaluate(&tab, "dangers.heard().includes('alarm')");
     assert_eq!(heard, true);
@@ -186,6 +186,18 @@ fn keys_hold_land_and_explain_themselves() {
     assert_eq!(text(&mut chromium, &tab, "#mute"), "Sound off");
     chromium.strike(&tab, "r", "KeyR", 0);
     chromium.wait(&tab, "!status.mission_waits");
+    // Nor does a held Enter confirm what its first press has announced.
+    chromium.evaluate(&tab, "document.querySelector('#cut').focus(); sent.length = 0");
+    for _ in 0..5 {
+        chromium.hold_key(&tab, "Enter", "Enter");
+    }
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let cuts = chromium.evaluate(&tab, "sent.includes('cut')");
+    assert_eq!((cuts, chromium.evaluate(&tab, "sent.length <= 1")), (json!(false), json!(true)));
+    chromium.evaluate(
+        &tab,
+        "document.querySelector('#cut').blur(); sent.splice(0, 9, 'hold', 'resume')",
+    );
     // Letters that are typed are letters.
     chromium.evaluate(&tab, "document.querySelector('#typed').focus()");
     chromium.strike(&tab, "l", "KeyL", 0);

@@ -306,6 +306,12 @@ fn settings_are_seen_and_changed() {
         "document.querySelector('#settingsnote').textContent.includes('it must lie in 0.5 to 200')",
     );
     assert_eq!(file(), SETTINGS);
+    set(&mut chromium, "radius_m", "");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#settingsnote').textContent.includes('radius_m is no number')",
+    );
+    assert_eq!(file(), SETTINGS);
     set(&mut chromium, "radius_m", "4");
     chromium.wait(
         &tab,

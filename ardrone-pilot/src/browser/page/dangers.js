@@ -29,7 +29,7 @@ const dangers = (() => {
   function worst() {
     const now = performance.now();
     const seconds = (time) => `${(time / 1000).toFixed(0)} s`;
-    if (over) return { level: "over", text: over };
+    if (over) return { level: status && status.emergency ? "alarm" : "over", text: over };
     const silence = now - heard;
     if (silence > SILENCE) {
       const since = heard ? ` for ${seconds(silence)}` : "";

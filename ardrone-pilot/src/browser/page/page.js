@@ -436,6 +436,10 @@ document.addEventListener("keydown", (event) => {
   else if (!event.repeat) order({ order: does });
   event.preventDefault();
 });
+// A held Enter would press a button again and again, and so confirm what it has just announced.
+document.addEventListener("keydown", (event) => {
+  if (event.repeat && event.key === "Enter" && !isTyped(event)) event.preventDefault();
+}, true);
 // What has the focus is pressed by the release of the space bar.
 document.addEventListener("keyup", (event) => {
   if (event.key === " " && isAirborne() && !isTyped(event)) event.preventDefault();

@@ -35,9 +35,12 @@ const settings = (() => {
 
   // A value as it is typed, and back.
   const shown = (value) => (typeof value === "string" ? value : JSON.stringify(value));
-  function typed({ input, setting: { value } }) {
+  function typed({ input, setting: { name, value } }) {
     if (typeof value === "boolean") return input.value === "true";
-    if (typeof value === "number") return Number(input.value);
+    if (typeof value === "number") {
+      if (!Number.isFinite(input.valueAsNumber)) throw new Error(`${name} is no number`);
+      return input.valueAsNumber;
+    }
     return typeof value === "string" ? input.value : JSON.parse(input.value);
   }
 
@@ -83,7 +86,7 @@ const settings = (() => {
     try {
       for (const row of changed()) (sections[row.setting.section] ??= {})[row.setting.name] = typed(row);
     } catch (error) {
-      note(`A list is written as [1, 2]: ${error.message}`, true);
+      note(`Nothing was saved: ${error.message}. A list is written as [1, 2].`, true);
       return;
     }
     try {
