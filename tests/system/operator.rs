@@ -171,11 +171,18 @@ fn keys_hold_land_and_explain_themselves() {
     );
     chromium.strike(&tab, "?", "Slash", 0);
     chromium.wait(&tab, "document.querySelector('#keys').open");
-    // Behind a dialog nothing is ordered.
-    chromium.strike(&tab, "l", "KeyL", 0);
+    // Behind a dialog nothing is ordered, but to hold and to land.
+    chromium.strike(&tab, "r", "KeyR", 0);
     chromium.strike(&tab, "Escape", "Escape", 0);
     chromium.wait(&tab, "!document.querySelector('#keys').open");
     assert_eq!(chromium.evaluate(&tab, "sent.length"), 0);
+    chromium.strike(&tab, "?", "Slash", 0);
+    chromium.wait(&tab, "document.querySelector('#keys').open");
+    chromium.strike(&tab, " ", "Space", 0);
+    chromium.wait(&tab, "status.mission_waits && !document.querySelector('#keys').open");
+    chromium.strike(&tab, "r", "KeyR", 0);
+    chromium.wait(&tab, "!status.mission_waits");
+    chromium.evaluate(&tab, "sent.length = 0");
     // The sound's button has the focus, and is not pressed.
     chromium.click(&tab, "#mute", [0.0; 2]);
     for _ in 0..5 {

@@ -424,7 +424,11 @@ const isTyped = ({ target }) => /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName)
 const isAirborne = () => Boolean(status && ["flying", "landing"].includes(status.phase));
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") wanted = null;
-  if (isTyped(event) || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+  if (isTyped(event) || event.ctrlKey || event.metaKey || event.altKey) return;
+  const dialog = document.querySelector("dialog[open]");
+  // Nothing that is open stands between somebody and a drone that must hold or land.
+  if (dialog && !(isAirborne() && [" ", "l"].includes(event.key.toLowerCase()))) return;
+  dialog?.close("no");
   const does = {
     // In the air it holds, whatever button was pressed last; on the ground it presses a button, as everywhere.
     " ": isAirborne() && "hold",
