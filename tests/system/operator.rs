@@ -138,6 +138,12 @@ fn nothing_moves_under_the_cursor() {
         let shift = chromium.evaluate(&tab, "cls()").as_f64().unwrap();
         assert!(shift < 0.02, "{shift}: {}", chromium.evaluate(&tab, "JSON.stringify(shifts)"));
     }
+    // The footer of a short view is where that of a long one is.
+    let bottom =
+        "document.querySelector('footer').getBoundingClientRect().bottom > innerHeight - 12";
+    chromium.evaluate(&tab, "show('flights'); document.querySelector('#ofplan').value = 'none'; document.querySelector('#ofplan').oninput()");
+    chromium.wait(&tab, bottom);
+    chromium.evaluate(&tab, "show('fly')");
     // On a telephone the camera is seen while it is flown by hand, and the buttons leave room for it.
     chromium.evaluate(&tab, "order({ order: 'start' })");
     chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.7");
