@@ -184,13 +184,10 @@ impl Heading {
         airframe: &Airframe,
         limits: &DroneLimits,
     ) -> f64 {
-        self.measured.back().map_or(0.0, |(from_s, _)| {
-            let model = Turning { orders, airframe, limits };
-            model.turned(self.turn_deg_s, *from_s, time_s).0
-        })
+        self.since_newest(self.turn_deg_s, time_s, &Turning { orders, airframe, limits })
     }
 
-    /// Turn rate at a time after the newest measurement: that of the last headings, predicted from the sticks since.
+    /// Turn rate at a time: that of the last headings, predicted from the sticks since.
     pub(crate) fn rate_deg_s(
         &self,
         time_s: f64,
@@ -198,10 +195,13 @@ impl Heading {
         airframe: &Airframe,
         limits: &DroneLimits,
     ) -> f64 {
-        self.measured.back().map_or(0.0, |(from_s, _)| {
-            let model = Turning { orders, airframe, limits };
-            model.turned(self.measured_deg_s(), *from_s, time_s.max(*from_s)).0
-        })
+        self.since_newest(self.measured_deg_s(), time_s, &Turning { orders, airframe, limits })
+    }
+
+    /// The turn rate of the newest measurement, predicted for a time; before it, itself.
+    fn since_newest(&self, turn_deg_s: f64, time_s: f64, model: &Turning<'_>) -> f64 {
+        let newest_s = self.measured.back().map(|(at_s, _)| *at_s);
+        newest_s.map_or(0.0, |at_s| model.turned(turn_deg_s, at_s, time_s.max(at_s)).0)
     }
 
     /// The heading that was measured at a time, if the newest one was.

@@ -13,8 +13,6 @@ use super::{FlightEvent, LandingReason, Outcome, Phase, Refused, Vehicle, sample
 const RATE_TIME_S: f64 = 1.0;
 /// The flight recorder measures once per second.
 pub(super) const GPS_MAX_AGE: Duration = Duration::from_secs(2);
-/// The voltage is in each packet.
-const VOLTAGE_MAX_AGE: Duration = Duration::from_secs(2);
 /// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
 /// so flying does not depend on it.
 pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
@@ -35,18 +33,16 @@ impl Vehicle {
         if !self.says_on_ground() {
             self.off_ground_at = Some(now);
         }
-        if let Ok(packet) = Packet::decode(datagram) {
+        if (self.config.gps || self.config.estimator.tags.is_some())
+            && let Ok(packet) = Packet::decode(datagram)
+        {
             self.handle_further_options(now, &packet);
         }
         Ok(())
     }
 
-    /// What the session does not need: the battery's voltage, roundels, and the flight recorder's position, which is not in every packet.
+    /// What the session does not need: roundels, and the flight recorder's position, which is not in every packet.
     fn handle_further_options(&mut self, now: Duration, packet: &Packet<'_>) {
-        // No battery that lets a drone send has 0 V: it is not measured.
-        if let Some(millivolts) = packet.battery_mv().filter(|millivolts| *millivolts > 0) {
-            self.battery_v = Some((now, f64::from(millivolts) / 1000.0));
-        }
         if self.config.estimator.tags.is_some() && packet.demo().is_some() {
             self.flight.estimator.see(&sights(packet));
         }
@@ -63,10 +59,10 @@ impl Vehicle {
         (now.saturating_sub(at) <= GPS_MAX_AGE).then_some(fix)
     }
 
-    /// The battery's voltage, if it is not older than [`VOLTAGE_MAX_AGE`].
-    pub(super) fn battery_v(&self, now: Duration) -> Option<f64> {
-        let (at, battery_v) = self.battery_v?;
-        (now.saturating_sub(at) <= VOLTAGE_MAX_AGE).then_some(battery_v)
+    /// The battery's voltage in the newest packet. No battery that lets a drone send has 0 V: then it is not measured.
+    pub(super) fn battery_v(&self) -> Option<f64> {
+        let millivolts = self.navdata.as_ref()?.battery_mv.filter(|millivolts| *millivolts > 0)?;
+        Some(f64::from(millivolts) / 1000.0)
     }
 
     /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone

@@ -188,8 +188,6 @@ pub struct Vehicle {
     /// Position by the drone's flight recorder.
     /// The flight recorder's last position, and when it arrived.
     gps: Option<(Duration, GpsFix)>,
-    /// When the battery's voltage was heard, and what it was.
-    battery_v: Option<(Duration, f64)>,
     last_tick: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
@@ -260,7 +258,6 @@ impl Vehicle {
             flight: Flight::new(config, Duration::ZERO),
             navdata: None,
             gps: None,
-            battery_v: None,
             last_tick: None,
             navdata_hz: 0.0,
             packet_at: None,
@@ -388,7 +385,7 @@ impl Vehicle {
             target: self.flight.target,
             distance_m: self.flight.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),
-            battery_v: self.battery_v(now),
+            battery_v: self.battery_v(),
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             rests_on: RestsOn::of(tags.as_ref()),

@@ -8,8 +8,6 @@
 
 use std::time::Duration;
 
-use arrayvec::ArrayVec;
-
 use super::fence::{self, FENCE};
 use super::{Item, MAX_ITEMS, Problem, Rules, Translated, result, translate};
 use crate::dialect::MavMissionResult;
@@ -102,14 +100,14 @@ pub(crate) enum Event {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Handled {
     /// The message to send to the partner, if there is one.
-    pub(crate) messages: ArrayVec<Message, 1>,
+    pub(crate) message: Option<Message>,
     /// What happened, if it did.
     pub(crate) event: Option<Event>,
 }
 
 impl Handled {
     fn send(message: Message) -> Self {
-        Self { messages: [message].into(), event: None }
+        Self { message: Some(message), event: None }
     }
 
     fn ack(result: MavMissionResult, mission_type: u8) -> Self {

@@ -320,7 +320,7 @@ impl MavlinkVehicle {
 
     /// What a transfer has led to.
     pub(super) fn transferred(&mut self, partner: Partner, handled: &Handled) {
-        for message in &handled.messages {
+        if let Some(message) = &handled.message {
             self.send_of_mission(partner, *message);
         }
         let Some(event) = &handled.event else { return };

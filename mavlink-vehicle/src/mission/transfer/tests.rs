@@ -51,7 +51,7 @@ struct Bench {
 impl Bench {
     fn from(&mut self, from: Partner, received: Received) -> (Vec<Message>, Option<Event>) {
         let handled = self.transfer.handle(self.now, from, &received, &RULES);
-        (handled.messages.to_vec(), handled.event)
+        (handled.message.into_iter().collect(), handled.event)
     }
 
     #[track_caller]
@@ -62,7 +62,7 @@ impl Bench {
     fn after(&mut self, ms: u64) -> (Vec<Message>, Option<Event>) {
         self.now += Duration::from_millis(ms);
         let handled = self.transfer.tick(self.now);
-        (handled.messages.to_vec(), handled.event)
+        (handled.message.into_iter().collect(), handled.event)
     }
 
     fn upload(&mut self, items: &[Item]) -> (Vec<Message>, Option<Event>) {
@@ -375,10 +375,10 @@ fn the_fence_is_read_and_sent_back_and_not_changed() {
     bench.assert(QGC, asked(1), &ack(result::INVALID_SEQUENCE));
     // A plan without one changes nothing, and the vehicle's own may be sent back.
     bench.assert(QGC, Received::Count { count: 0, mission_type: FENCE }, &ack(result::ACCEPTED));
-    let asked = [Message::Request { seq: 0, mission_type: FENCE }];
-    bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &asked);
+    let asked = Message::Request { seq: 0, mission_type: FENCE };
+    bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &[asked]);
     bench.now += REPEAT_AFTER;
-    assert_eq!(bench.transfer.tick_fence(bench.now).messages[..], asked);
+    assert_eq!(bench.transfer.tick_fence(bench.now).message, Some(asked));
     let moved = Item { x: item.x + 1, param1: item.param1 + 0.01, ..item };
     let (messages, event) = bench.from(QGC, Received::Item(moved));
     assert_eq!((&messages[..], event), (&ack(result::ACCEPTED)[..], Some(Event::FenceSame)));
@@ -391,7 +391,7 @@ fn the_fence_is_read_and_sent_back_and_not_changed() {
         Item { command: 5004, ..item },
         Item { param1: f32::NAN, ..item },
     ] {
-        bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &asked);
+        bench.assert(QGC, Received::Count { count: 1, mission_type: FENCE }, &[asked]);
         let (messages, event) = bench.from(QGC, Received::Item(other));
         assert_eq!((&messages[..], event), (&denied[..], Some(Event::FenceStays)), "{other:?}");
     }
@@ -578,7 +578,7 @@ fn upload_over(
             let foreign = transfer.handle(now, from, &received, &RULES);
             assert_eq!(foreign.event, None);
         }
-        for message in handled.iter().flat_map(|handled| &handled.messages) {
+        for message in handled.iter().flat_map(|handled| &handled.message) {
             down.send(*now_ms, *message, chance);
         }
         let stored = transfer.items();
