@@ -124,7 +124,8 @@ land
 
   const tooLarge = (what, bytes) => `${what} has ${(bytes / 1024).toFixed(0)} kB; a plan is text of at most ${MOST_BYTES >> 10} kB`;
 
-  const isGood = () => Boolean(checked && checked.steps && !stale);
+  // Not by the answer for another text, while that for this one is on its way.
+  const isGood = () => Boolean(checked && checked.steps && !stale && !checking);
 
   // ---- The list.
 
@@ -561,7 +562,6 @@ land
     simulated: () => flown,
     text: () => text.value,
     name: fileName,
-    undo: () => travel(-1),
     // Places that the map must show.
     places: () => [...targets().map(({ x, y }) => [x, y]), ...(flown && flown.track ? flown.track.map(([, x, y]) => [x, y]) : [])],
     targets,
