@@ -103,11 +103,15 @@ fn large_plans_are_edited_and_larger_ones_refused() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start();
     let tab = planner(&mut chromium, &station);
-    // 32 kB less what is typed below.
-    let line = "goto -1.5 -0.55 -0.25 -180\n";
-    let lines = (32 * 1024 - 100) / line.len();
+    // 32 kB less what is typed below. Each target has a place of its own.
+    let line = |index: usize| {
+        let (column, row) = (index % 40, index / 40 % 30);
+        format!("goto -{:.2} -{:.2} -0.25 -180\n", column as f64 * 0.1, row as f64 * 0.1)
+    };
+    let lines = (32 * 1024 - 100) / line(0).len();
     let open = |lines| {
-        let text = json!(format!("takeoff\n{}land\n", line.repeat(lines)));
+        let steps: String = (0..lines).map(line).collect();
+        let text = json!(format!("takeoff\n{steps}land\n"));
         format!(
             "{{ const text = document.querySelector('#plantext'); text.value = {text}; text.oninput(); }}"
         )

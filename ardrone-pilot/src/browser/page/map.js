@@ -7,6 +7,12 @@ const svg = (name, attributes = {}) => {
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   return element;
 };
+// Sets attributes that have changed: the others would be laid out and painted anew all the same.
+const set = (element, attributes) => {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (element.getAttribute(key) !== String(value)) element.setAttribute(key, value);
+  }
+};
 // An empty canvas as large as it is shown, in pixels of the screen.
 function emptied(canvas) {
   const { width, height } = canvas.getBoundingClientRect();
@@ -26,35 +32,56 @@ const map = (() => {
   const STALE = 2;
 
   const [NEAREST, FARTHEST] = [0.3, 100]; // half of the smaller side of the map, in metres
+  const FOLLOWS = 150; // the view follows with this time constant, in milliseconds
   const TREMBLES = 4; // a hand that clicks moves this far, in pixels
 
   let view = null; // the part of the world on the map: { x, y, half }
   let mode = "all"; // what the view shows: "all", "drone", or what was "chosen" by hand
   const fingers = new Map(); // pointers on the map: [x, y] in pixels
   let moved = false; // the last press has moved the map
+  let approachedAt = 0; // when the view last followed
   let trailDrawn = null; // what is drawn of the flown way
   let tags = new Map(); // marks of the known tags by their number
-  let marks = []; // of targets: { x, y, steps, mark }
-  let shown = []; // the targets that the marks are for
+  let marks = []; // of targets: { labels, mark, x, y }
+  let shown = ""; // the targets that the marks are for
 
   // Marks for targets [{ x, y, label }], where targets at one place share a mark.
   function setTargets(targets) {
     const key = JSON.stringify(targets);
     if (key === shown) return;
     shown = key;
-    marks = [];
-    $("targets").replaceChildren();
-    for (const { x, y, label } of targets) {
-      let place = marks.find((other) => Math.hypot(other.x - x, other.y - y) < 0.1);
-      if (!place) {
-        place = { x, y, labels: [], mark: svg("g") };
-        place.mark.append(svg("circle", { r: 0.8 }), svg("text", { y: -1.7, "font-size": 1.3 }));
-        $("targets").append(place.mark);
-        marks.push(place);
+    marks = gathered(targets, 0.1).map(({ x, y, all }) => {
+      const mark = svg("g");
+      mark.append(svg("circle", { r: 0.8 }), svg("text", { y: -1.7, "font-size": 1.3 }));
+      mark.lastChild.textContent = numbers(all);
+      return { x, y, labels: all.map(({ label }) => label), mark };
+    });
+    $("targets").replaceChildren(...marks.map(({ mark }) => mark));
+  }
+
+  // Targets by their places, where those within `apart` metres share one: [{ x, y, all }].
+  function gathered(targets, apart) {
+    const cells = new Map(); // places by the square of the ground that they are in
+    const places = [];
+    for (const target of targets) {
+      const [column, row] = [Math.floor(target.x / apart), Math.floor(target.y / apart)];
+      const near = [-1, 0, 1].flatMap((right) => [-1, 0, 1].flatMap((up) => cells.get(`${column + right} ${row + up}`) ?? []));
+      const place = near.find(({ x, y }) => Math.hypot(x - target.x, y - target.y) < apart);
+      if (place) {
+        place.all.push(target);
+        continue;
       }
-      place.labels.push(label);
-      place.mark.lastChild.textContent = place.labels.join(", ");
+      places.push({ x: target.x, y: target.y, all: [target] });
+      const cell = `${column} ${row}`;
+      cells.set(cell, [...(cells.get(cell) ?? []), places.at(-1)]);
     }
+    return places;
+  }
+
+  // "2, 5" or "2 … 40" of targets that share a mark.
+  function numbers(targets) {
+    const labels = targets.map(({ label }) => label);
+    return labels.length > 3 ? `${labels[0]} … ${labels.at(-1)}` : labels.join(", ");
   }
 
   // What there is to see: places that must be on the map.
@@ -88,21 +115,17 @@ const map = (() => {
     view ??= { x: middle(xs), y: middle(ys), half };
     if (mode === "all" && !plan.isDragging()) {
       view.half = Math.max(view.half, half);
-      view.x += (middle(xs) - view.x) * 0.1;
-      view.y += (middle(ys) - view.y) * 0.1;
+      approach(middle(xs), middle(ys));
     }
-    if (mode === "drone" && status && status.pose) {
-      view.x += (status.pose.x_m - view.x) * 0.1;
-      view.y += (status.pose.y_m - view.y) * 0.1;
-    }
+    if (mode === "drone" && status && status.pose) approach(status.pose.x_m, status.pose.y_m);
     const visible = view.half;
     const [wide, high] = [(visible * width) / least, (visible * height) / least];
-    element.setAttribute("viewBox", `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}`);
+    set(element, { viewBox: `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}` });
     drawGrid(wide, high, visible);
     // Of a mark, in metres: large enough for its number on a small screen, in pixels.
     const SMALLEST = 14;
     const size = Math.max(visible * 0.05, (SMALLEST * 2 * visible) / least);
-    $("fence").setAttribute("points", points(flight.fence.outline_m));
+    set($("fence"), { points: points(flight.fence.outline_m) });
     drawFenceArrow(wide, high, width, height);
     $("all").ariaPressed = String(mode === "all");
     $("follow").ariaPressed = String(mode === "drone");
@@ -110,18 +133,28 @@ const map = (() => {
     plan.drawOn(size);
     if (planning) {
       setTargets([]);
-      $("way").setAttribute("points", points([[0, 0], ...plan.targets().map(({ x, y }) => [x, y])]));
+      set($("way"), { points: points([[0, 0], ...plan.targets().map(({ x, y }) => [x, y])]) });
     } else {
       const numbered = flight.steps.map(({ target }, index) => ({ target, label: index + 1 })).filter(({ target }) => target);
       setTargets(numbered.map(({ target, label }) => ({ x: target.x_m, y: target.y_m, label })));
-      $("way").setAttribute("points", points([[0, 0], ...numbered.map(({ target }) => [target.x_m, target.y_m])]));
+      set($("way"), { points: points([[0, 0], ...numbered.map(({ target }) => [target.x_m, target.y_m])]) });
     }
     for (const { x, y, labels, mark } of marks) {
-      mark.setAttribute("transform", `translate(${x} ${-y}) scale(${size * 0.8})`);
-      mark.setAttribute("class", status && labels.includes(status.step + 1) ? "now" : "");
+      const isNow = status && labels.includes(status.step + 1);
+      set(mark, { transform: `translate(${x} ${-y}) scale(${size * 0.8})`, class: isNow ? "now" : "" });
     }
     drawDrone(size);
     drawTags(size);
+  }
+
+  // Moves the view a part of the way to a middle. It arrives: a view that trembles would be painted for ever.
+  function approach(x, y) {
+    const now = performance.now();
+    const near = Math.hypot(x - view.x, y - view.y) < view.half * 0.002;
+    const share = near ? 1 : 1 - Math.exp((approachedAt - now) / FOLLOWS);
+    approachedAt = now;
+    view.x += (x - view.x) * share;
+    view.y += (y - view.y) * share;
   }
 
   function drawDrone(size) {
@@ -136,16 +169,14 @@ const map = (() => {
     put("aim", at(target));
     const played = document.body.dataset.view === "fly" ? flights.playing() : null;
     put("ghost", played && at(played.pose), played ? `rotate(${played.pose.yaw_deg})` : "");
-    $("ghostway").setAttribute("points", played ? points(played.way) : "");
+    set($("ghostway"), { points: played ? points(played.way) : "" });
     put("wanted", wanted);
     $("doubt").style.display = pose ? "" : "none";
     if (pose) {
-      $("doubt").setAttribute("cx", pose.x_m);
-      $("doubt").setAttribute("cy", -pose.y_m);
-      $("doubt").setAttribute("r", 2 * status.horizontal_deviation_m);
+      set($("doubt"), { cx: pose.x_m, cy: -pose.y_m, r: 2 * status.horizontal_deviation_m });
     }
     const end = trail.at(-1);
-    if (end !== trailDrawn) $("trail").setAttribute("points", points(trail));
+    if (end !== trailDrawn) set($("trail"), { points: points(trail) });
     trailDrawn = end;
   }
 
@@ -190,13 +221,13 @@ const map = (() => {
       }
       const mark = tags.get(tag.id);
       const [spread, roundel, number] = mark.children;
-      spread.setAttribute("r", tag.deviation_m);
-      mark.setAttribute("transform", `translate(${tag.x_m} ${-tag.y_m})`);
-      roundel.setAttribute("transform", `scale(${size * 0.8}) rotate(${tag.heading_deg ?? 0})`);
+      set(spread, { r: tag.deviation_m });
+      set(roundel, { transform: `scale(${size * 0.8}) rotate(${tag.heading_deg ?? 0})` });
       roundel.firstChild.style.display = tag.heading_deg === null ? "none" : "";
-      number.setAttribute("transform", `scale(${size * 0.8})`);
+      set(number, { transform: `scale(${size * 0.8})` });
       number.textContent = `${tag.id}${tag.surveyed ? "*" : ""}`;
-      mark.setAttribute("class", tag.seen_s !== null && tag.seen_s < STALE ? "" : "stale");
+      const isFresh = tag.seen_s !== null && tag.seen_s < STALE;
+      set(mark, { transform: `translate(${tag.x_m} ${-tag.y_m})`, class: isFresh ? "" : "stale" });
     }
   }
 
@@ -215,8 +246,8 @@ const map = (() => {
     for (let x = Math.ceil(left / step) * step; x <= right; x += step) lines += `M${x} ${low}V${top}`;
     for (let y = Math.ceil(low / step) * step; y <= top; y += step) lines += `M${left} ${y}H${right}`;
     if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
-    $("grid").firstChild.setAttribute("d", lines);
-    $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
+    set($("grid").firstChild, { d: lines });
+    set($("grid").lastChild, { d: `M0 ${low}V${top}M${left} 0H${right}` });
     const tagged = status && status.tags ? "; roundels: tags with one standard deviation, * surveyed" : "";
     const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
     const { width } = $("map").getBoundingClientRect();
@@ -297,11 +328,16 @@ const map = (() => {
     view = null;
   };
   $("follow").onclick = () => (mode = mode === "drone" ? "chosen" : "drone");
-  $("clear").onclick = () => (trail = []);
+  $("clear").onclick = () => {
+    trail = [];
+    trailOfFlight = 0;
+  };
 
   return {
     draw,
     place,
+    gathered,
+    numbers,
     tagsText,
     // What is pointed to stays under the pointer.
     keep: () => (mode = mode === "all" ? "chosen" : mode),

@@ -16,6 +16,8 @@ land
   const AGAIN = 3000;
   // Largest plan that is taken, as of the server.
   const MOST_BYTES = 32 << 10;
+  // Targets that are closer than this share a mark, in sizes of a mark.
+  const SHARES = 0.5;
   // Problems that are listed; nobody reads more.
   const MOST_PROBLEMS = 100;
   // Of the plan language: { name, help, example, numbers: [[name, unit]], isTarget }.
@@ -28,7 +30,9 @@ land
   let checking = false; // a check is on its way
   let stale = false; // the text has changed meanwhile
   let rows = []; // of the list: { key, index, item, inputs, note }
-  let drawn = ""; // the marks on the map
+  let located = { of: null, targets: [] }; // the targets of the checked plan
+  let drawn = {}; // what the marks on the map were drawn of
+  let numbered = 0; // rows that were ever made
   let saved = ""; // the text as it was opened or saved
   const history = new History();
   let drag = null; // the target that is dragged: { line, last }
@@ -149,7 +153,7 @@ land
     for (const { item } of made) $("draftsteps").insertBefore(item, next);
     rows.forEach((row, at) => {
       const { index, found } = commands[at];
-      if (row.index !== index) row.place(index);
+      row.index = index;
       row.inputs.forEach((input, place) => {
         // A number as its field writes it: not "+1" or "1.".
         const value = String(Number(found[place + 1].word));
@@ -170,12 +174,18 @@ land
     const numbers = found.slice(1).every(({ word }) => Number.isFinite(Number(word)));
     const fields = numbers ? (declared(found[0].word)?.numbers ?? []).slice(0, found.length - 1) : [];
     const made = { key, index: -1, item, number, rest, inputs: [] };
-    const named = []; // elements, with what is said of them behind the line's number
-    made.inputs = fields.map(([field, unit], place) => {
+    // Each is named by the step's number and command, and by itself: "3 goto right, m". A row that only moves keeps its names.
+    const place = `step${(numbered += 1)}`;
+    [number.id, name.id] = [`${place}number`, `${place}name`];
+    const label = (element, what) => {
+      Object.assign(element, { id: `${place}${what}`.replace(/\W/g, ""), ariaLabel: what });
+      element.setAttribute("aria-labelledby", `${number.id} ${name.id} ${element.id}`);
+    };
+    made.inputs = fields.map(([field, unit], at) => {
       const input = document.createElement("input");
       Object.assign(input, { type: "number", step: unit.includes("°") ? 15 : 0.1, title: `${field}, ${unit}` });
-      named.push([input, (what) => `${what}: ${field}, ${unit}`]);
-      input.oninput = () => input.value && setNumbers(made.index, { [place + 1]: input.value }, `number ${made.index} ${place}`);
+      label(input, `${field}, ${unit}`);
+      input.oninput = () => input.value && setNumbers(made.index, { [at + 1]: input.value }, `number ${made.index} ${at}`);
       // What was cleared and left is as it was.
       input.onblur = () => {
         history.pause();
@@ -189,17 +199,12 @@ land
     item.append(made.note);
     const button = (sign, does, action) => {
       const element = Object.assign(document.createElement("button"), { textContent: sign, title: does, onclick: action });
-      named.push([element, (what) => `${does} ${what}`]);
+      label(element, does);
       item.append(element);
     };
     button("↑", "move up", () => move(made.index, -1));
     button("↓", "move down", () => move(made.index, 1));
     button("✕", "remove", () => write(lines().filter((_, line) => line !== made.index).join("\n")));
-    made.place = (index) => {
-      made.index = index;
-      const what = `line ${index + 1}, ${found[0].word}`;
-      for (const [element, says] of named) element.ariaLabel = says(what);
-    };
     return made;
   }
 
@@ -302,9 +307,11 @@ land
 
   // Of the checked plan: { x, y, line, label }.
   function targets() {
-    const steps = checked && checked.steps ? checked.steps : [];
-    const numbered = steps.map(({ target, line }, index) => ({ target, line, label: index + 1 }));
-    return numbered.filter(({ target, line }) => target && line).map(({ target, line, label }) => ({ x: target.x_m, y: target.y_m, z: target.z_m, line, label }));
+    if (located.of === checked) return located.targets;
+    const numbered = (checked?.steps ?? []).map(({ target, line }, index) => ({ target, line, label: index + 1 }));
+    const found = numbered.filter(({ target, line }) => target && line).map(({ target, line, label }) => ({ x: target.x_m, y: target.y_m, z: target.z_m, line, label }));
+    located = { of: checked, targets: found };
+    return found;
   }
 
   function canBeDragged({ line }, all) {
@@ -317,10 +324,10 @@ land
     drawButtons();
     const shown = view === "plan";
     $("simulated").setAttribute("points", shown && flown && flown.track ? points(flown.track.map(([, x, y]) => [x, y])) : "");
-    const wanted = shown ? targets() : [];
-    const key = JSON.stringify([size, wanted, text.value]);
-    if (key === drawn) return;
-    drawn = key;
+    if (drawn.size === size && drawn.shown === shown && drawn.checked === checked && drawn.text === text.value) return;
+    drawn = { size, shown, checked, text: text.value };
+    // A finger that drags one takes it out of those that share its mark.
+    const wanted = shown ? map.gathered(targets(), size * SHARES) : [];
     const marks = $("drafts").children;
     while (marks.length > wanted.length) marks[marks.length - 1].remove();
     while (marks.length < wanted.length) {
@@ -329,12 +336,15 @@ land
       $("drafts").append(mark);
     }
     const all = lines();
-    wanted.forEach((target, index) => {
+    wanted.forEach(({ x, y, all: together }, index) => {
       const mark = marks[index];
-      mark.dataset.line = target.line;
-      mark.setAttribute("class", canBeDragged(target, all) ? "free" : "");
-      mark.setAttribute("transform", `translate(${target.x} ${-target.y}) scale(${size * 0.8})`);
-      mark.lastChild.textContent = target.label;
+      // The last of them is on top.
+      const target = together.at(-1);
+      set(mark, { "data-line": target.line, class: canBeDragged(target, all) ? "free" : "", transform: `translate(${x} ${-y}) scale(${size * 0.8})` });
+      const numbers = map.numbers(together);
+      if (mark.lastChild.textContent !== numbers) mark.lastChild.textContent = numbers;
+      // Several are smaller, to be inside the mark.
+      set(mark.lastChild, { "font-size": 1.2 * Math.min(1, 3 / numbers.length) });
     });
   }
 
