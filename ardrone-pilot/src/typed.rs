@@ -1,7 +1,6 @@
 //! Orders typed by an operator.
 
 use std::path::Path;
-use std::sync::LazyLock;
 
 use ardrone_link::settings::Camera;
 use autopilot::plan::{Commands, FlightLimits, LANGUAGE, Plan, PlanError};
@@ -54,16 +53,26 @@ static WORDS: [Word; 15] = [
     word("help", "", Means::Help),
 ];
 
+/// Where a line was typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Typist {
+    /// In the terminal in which the program runs.
+    Here,
+    /// Anywhere else.
+    Elsewhere,
+}
+
 /// Summary of the orders and commands.
-static HELP: LazyLock<String> = LazyLock::new(|| {
-    let words = WORDS.iter().map(|Word { name, note, .. }| format!("{name}{note}"));
+fn help(typist: Typist) -> String {
+    let words = WORDS.iter().filter(|word| typist == Typist::Here || !is_here(&word.means));
+    let words = words.map(|Word { name, note, .. }| format!("{name}{note}"));
     let commands = LANGUAGE.iter().map(|declared| declared.name);
     format!(
         "orders:\n  {}\ncommands, which are appended to the mission:\n  {}",
         words.collect::<Vec<_>>().join(", "),
         commands.collect::<Vec<_>>().join(", ")
     )
-});
+}
 
 /// Words that are for the terminal in which the program runs.
 fn is_here(means: &Means) -> bool {
@@ -83,8 +92,8 @@ pub(crate) enum TypedError {
     NoFile,
     #[error("`{0}` is for the terminal in which the program runs")]
     Here(String),
-    #[error("{}", *HELP)]
-    Help,
+    #[error("{}", help(*.0))]
+    Help(Typist),
     #[error(transparent)]
     Refused(#[from] Refused),
 }
@@ -131,7 +140,7 @@ pub(crate) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedErr
         Some(Means::Append) => OperatorOrder::Append(Commands::parse("command", rest)?),
         Some(Means::Order(order)) if rest.is_empty() => order.clone(),
         Some(Means::Quit) if rest.is_empty() => return Ok(Typed::Quit),
-        Some(Means::Help) if rest.is_empty() => return Err(TypedError::Help),
+        Some(Means::Help) if rest.is_empty() => return Err(TypedError::Help(Typist::Here)),
         Some(_) if !takes_numbers(word) => return Err(TypedError::Alone(word.to_owned())),
         _ => OperatorOrder::Append(Commands::parse("command", line)?),
     };
@@ -151,9 +160,11 @@ pub(crate) fn parse_remote(line: &str, limits: &FlightLimits) -> Result<Operator
     if WORDS.iter().any(|known| known.name == word && is_here(&known.means)) {
         return Err(TypedError::Here(word.to_owned()));
     }
-    match parse(line, limits)? {
-        Typed::Order(order) => Ok(order),
-        Typed::Quit => Err(TypedError::Here(word.to_owned())),
+    match parse(line, limits) {
+        Ok(Typed::Order(order)) => Ok(order),
+        Ok(Typed::Quit) => Err(TypedError::Here(word.to_owned())),
+        Err(TypedError::Help(_)) => Err(TypedError::Help(Typist::Elsewhere)),
+        Err(error) => Err(error),
     }
 }
 
@@ -234,6 +245,8 @@ mod tests {
         assert!(
             remote_words().all(|word| word != "load") && remote_words().any(|word| word == "goto")
         );
+        let help = typed("help").unwrap_err().to_string();
+        assert!(help.contains("resume") && !help.contains("load") && !help.contains("quit"));
     }
 
     #[test]
@@ -257,7 +270,7 @@ mod tests {
     fn all_that_can_be_typed_is_completed_and_told() {
         for name in WORDS.iter().map(|word| word.name).chain(LANGUAGE.iter().map(|it| it.name)) {
             assert!(completions(name).contains(&name.to_owned()), "{name}");
-            assert!(HELP.contains(name), "{name}");
+            assert!(help(Typist::Here).contains(name), "{name}");
         }
     }
 }

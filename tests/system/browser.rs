@@ -198,7 +198,11 @@ fn the_page_flies_by_hand() {
     let held = place(&mut chromium, &tab);
     std::thread::sleep(Duration::from_secs(1));
     assert!((place(&mut chromium, &tab) - held).abs() < 0.3);
-    // The stick on the screen, to the left.
+    // The sticks on the screen: up with the left one, to the left with the right one.
+    let high = chromium.evaluate(&tab, "status.pose.z_m").as_f64().unwrap();
+    chromium.press(&tab, "#left", [0.0, -60.0]);
+    chromium.wait(&tab, &format!("status.pose.z_m > {high} + 0.2"));
+    chromium.release(&tab, "#left", [0.0, -60.0]);
     let watcher = chromium.open(&flown.url());
     chromium.wait(&watcher, "!!status");
     chromium.show(&tab);

@@ -162,6 +162,11 @@ impl Chromium {
         self.mouse(tab, selector, off, &["mousePressed"]);
     }
 
+    /// Lets go of the mouse at an offset from the middle of an element.
+    pub(crate) fn release(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
+        self.mouse(tab, selector, off, &["mouseReleased"]);
+    }
+
     /// Drags an element with the mouse by an offset.
     pub(crate) fn drag(&mut self, tab: &Tab, selector: &str, by: [f64; 2]) {
         let [x, y] = self.middle(tab, selector);

@@ -78,13 +78,26 @@ fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
         chromium.wait(&tab, &format!("!{bright}"));
     }
     chromium.wait(&tab, "document.querySelector('#recover').classList.contains('prime')");
+    // All of it is seen at once, on a telephone too.
+    for size in [[390, 844], [1400, 860]] {
+        chromium.look(&tab, size, "light");
+        let alarm = "{ const alarm = document.querySelector('#alarm'); [alarm.scrollHeight, alarm.clientHeight].join() }";
+        let heights = chromium.evaluate(&tab, alarm);
+        let (needed, had) = heights.as_str().unwrap().split_once(',').unwrap();
+        assert!(needed.parse::<u32>().unwrap() <= had.parse().unwrap(), "{heights} at {size:?}");
+    }
     chromium.picture(&tab, "emergency");
     // One click asks, and two do.
     chromium.click(&tab, "#recover", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#recover').innerText.startsWith('Again')");
     assert_eq!(chromium.evaluate(&tab, "status.emergency"), true);
     chromium.click(&tab, "#recover", [0.0; 2]);
-    chromium.wait(&tab, "!status.emergency && document.querySelector('#alarm').hidden");
+    chromium.wait(&tab, "!status.emergency");
+    // What was warned of is over with it.
+    let warned = "dangers.draw(); document.querySelector('#alarm').textContent";
+    let hidden = "document.querySelector('#alarm').hidden";
+    let warned = chromium.evaluate(&tab, warned);
+    assert_eq!(chromium.evaluate(&tab, hidden), true, "{warned}");
     chromium.wait(&tab, "!document.querySelector('#start').disabled");
 }
 
@@ -138,6 +151,9 @@ fn nothing_moves_under_the_cursor() {
         let shift = chromium.evaluate(&tab, "cls()").as_f64().unwrap();
         assert!(shift < 0.02, "{shift}: {}", chromium.evaluate(&tab, "JSON.stringify(shifts)"));
     }
+    let twice = "{ const all = [...document.querySelectorAll('[id]')].map(({ id }) => id); \
+        all.filter((id, at) => all.indexOf(id) !== at).join() }";
+    assert_eq!(chromium.evaluate(&tab, twice), "", "a name that two parts have");
     // The footer of a short view is where that of a long one is.
     let bottom =
         "document.querySelector('footer').getBoundingClientRect().bottom > innerHeight - 12";

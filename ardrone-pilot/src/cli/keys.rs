@@ -179,7 +179,7 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
 /// What is said to a typed line that was not carried out.
 fn answer(line: &str, error: &TypedError) -> String {
     match error {
-        TypedError::Help => error.to_string(),
+        TypedError::Help(_) => error.to_string(),
         _ => format!(":{line}\n{}", terminal::Causes(error)),
     }
 }

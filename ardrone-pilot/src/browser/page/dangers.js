@@ -38,7 +38,7 @@ const dangers = (() => {
     if (behind > SILENCE) return { level: "alarm", text: `This page is ${seconds(behind)} behind: the connection is slow.` };
     if (!status || !flight) return null;
     if (status.emergency) {
-      return { level: "alarm", text: "EMERGENCY: the motors are off. Keep away until the drone lies still. If it is whole and stands upright: Recover, then start again." };
+      return { level: "alarm", text: "EMERGENCY: the motors are off. Keep away until it lies still. Whole and upright? Recover, then start." };
     }
     const flies = isAirborne();
     const age = status.navdata_age_s;
@@ -79,6 +79,8 @@ const dangers = (() => {
   }
 
   function draw() {
+    // What was warned of before is over when the emergency is.
+    if (status?.emergency) warned.at = -Infinity;
     const danger = worst();
     const alarm = $("alarm");
     alarm.hidden = !danger;

@@ -3,6 +3,7 @@
 
 const heights = (() => {
   const EVERY = 100; // milliseconds between two drawings
+  const APART = 14; // numbers that are closer are written together, in pixels
   let drawnAt = 0;
   let [turn, tilt, zoom] = [0.6, 0.5, 1]; // radians, radians, factor
   let turning = null; // pointer that turns the picture: [x, y] in pixels
@@ -18,7 +19,7 @@ const heights = (() => {
 
   // What was flown, by the simulation or by the drone.
   function flownWay() {
-    if (view !== "plan") return flights.playing()?.way ?? trail;
+    if (view !== "plan") return flights.playing()?.way ?? trail.slice(trailOfFlight);
     const flown = plan.simulated();
     return flown && flown.track ? flown.track.map(([, x, y, z]) => [x, y, z]) : [];
   }
@@ -78,10 +79,8 @@ const heights = (() => {
     line(context, wanted.map(([length, z]) => [x(length), y(z)]), colour.faint, [2, 4]);
     line(context, flown.map(([length, z]) => [x(length), y(z)]), view === "plan" ? colour.tag : colour.here);
     context.fillStyle = colour.ink;
-    targets.forEach(({ label }, index) => {
-      const [length, z] = wanted[index + 2];
-      context.fillText(String(label), x(length) - 3, y(z) - 4);
-    });
+    const marks = targets.map(({ label }, index) => ({ x: x(wanted[index + 2][0]), y: y(wanted[index + 2][1]), label }));
+    for (const { x, y, all } of map.gathered(marks, APART)) context.fillText(map.numbers(all), x - 3, y - 4);
   }
 
   // ---- In three dimensions.
@@ -107,13 +106,14 @@ const heights = (() => {
     }
     line(context, way.map(at), colour.faint, [2, 4]);
     // Each target stands on the ground, which shows its height.
-    for (const { x, y, z, label } of targets) {
+    const marks = targets.map(({ x, y, z, label }) => {
       line(context, [at([x, y, 0]), at([x, y, z])], colour.line);
       const [u, v] = at([x, y, z]);
-      context.fillStyle = colour.ink;
-      context.fillText(String(label), u + 5, v - 5);
-      context.fillRect(u - 2, v - 2, 4, 4);
-    }
+      return { x: u, y: v, label };
+    });
+    context.fillStyle = colour.ink;
+    for (const { x, y } of marks) context.fillRect(x - 2, y - 2, 4, 4);
+    for (const { x, y, all } of map.gathered(marks, APART)) context.fillText(map.numbers(all), x + 5, y - 5);
     line(context, flown.map(at), view === "plan" ? colour.tag : colour.here);
     if (status && status.pose && view !== "plan") {
       const { x_m: x, y_m: y, z_m: z } = status.pose;

@@ -21,6 +21,7 @@ let behind = 0; // how much later than that the last message was
 let over = null; // how it ended, in words
 let stepsDone = null; // when it ended
 let trail = []; // [right, forward, up] in metres
+let trailOfFlight = 0; // where in it the last flight begins
 let me = null; // our name among the operators
 let view = ""; // the part of the page that is shown
 let decided = ""; // the last decision
@@ -64,6 +65,8 @@ function take(message) {
       begin(message);
       break;
     case "status":
+      // It has taken off, maybe again.
+      if (message.flight_time_s !== null && message.flight_time_s < (status?.flight_time_s ?? Infinity)) trailOfFlight = trail.length;
       status = message;
       clock = Math.max(clock, message.t_s * 1000 - performance.now());
       behind = clock - (message.t_s * 1000 - performance.now());
@@ -124,6 +127,7 @@ function begin(message) {
   message.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
   message.events.forEach(addEvent);
   if (message.status) take(message.status);
+  trailOfFlight = 0;
   readiness = message.ready;
   if (message.end) finish(message.end);
   plan.begin(message);
@@ -197,7 +201,9 @@ function extendTrail(pose) {
   const last = trail[trail.length - 1];
   if (last && Math.hypot(last[0] - pose.x_m, last[1] - pose.y_m, last[2] - pose.z_m) < 0.02) return;
   trail.push([pose.x_m, pose.y_m, pose.z_m]);
-  if (trail.length > 2000) trail.shift();
+  if (trail.length <= 2000) return;
+  trail.shift();
+  trailOfFlight = Math.max(0, trailOfFlight - 1);
 }
 
 // ---- Display. Drawn in animation frames, so that a page in the background costs nothing.
@@ -286,7 +292,7 @@ function drawFacts() {
   $("charge").value = charge || 0;
   // Until it is landed for its charge, by the use of a hover with a new battery.
   const left = charge === null ? null : Math.max(0, charge - flight.battery_lands_percent) / flight.battery_percent_s;
-  put("left", left === null ? "–" : `≈ ${minutes(left)}`, left !== null && left < 60);
+  put("timeleft", left === null ? "–" : `≈ ${minutes(left)}`, left !== null && left < 60);
   put("speed", velocity ? `${Math.hypot(...velocity).toFixed(1)} m/s` : "–");
   put("high", pose ? `${pose.z_m.toFixed(1)} m` : "–");
   put("home", pose ? `${Math.hypot(pose.x_m, pose.y_m).toFixed(1)} m` : "–");
@@ -395,6 +401,8 @@ $("typing").onsubmit = (event) => {
   const line = $("typed").value.trim();
   if (!line) return;
   order({ order: "typed", line });
+  // What was asked for is no error.
+  $("answer").classList.toggle("asked", line === "help");
   $("typed").value = "";
 };
 $("help").onclick = () => $("keys").showModal();

@@ -6,26 +6,27 @@ const plots = (() => {
   const EVERY = 200; // milliseconds between two drawings
   const LINES = 3; // at most, in one plot
   const [LEFT, BELOW] = [44, 16]; // room for the axes, in pixels
-  // Name, unit, least range, names of the lines, what of a status is drawn, and the least value if there is one.
+  // Name, unit, least range, names of the lines, what of a status is drawn, the least value if there is one, and whether
+  // the highest value of each second is drawn, of what rises and falls many times in it.
   const PLOTS = [
     ["position", "m", 1, ["right", "forward", "up"], ({ pose }) => (pose ? [pose.x_m, pose.y_m, pose.z_m] : [])],
     ["speed", "m/s", 0.5, ["right", "forward", "up"], ({ velocity_m_s: speed }) => speed ?? []],
     ["distance to the target", "m", 0.5, ["distance"], ({ distance_m }) => [distance_m], 0],
     ["tilt", "°", 5, ["right", "forward"], ({ attitude_deg: tilt }) => (tilt ? [tilt[0], -tilt[1]] : [])],
     ["battery", "%", 10, ["charge"], ({ battery_percent }) => [battery_percent], 0],
-    ["age of the navdata", "ms", 50, ["age"], ({ navdata_age_s: age }) => [age === null ? null : age * 1000], 0],
-    ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000], 0],
+    ["age of the navdata", "ms", 50, ["age"], ({ navdata_age_s: age }) => [age === null ? null : age * 1000], 0, true],
+    ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000], 0, true],
   ];
 
   let rows = []; // [time, a list of values for each plot]
   let drawn = 0;
   let paused = null; // the rows that are looked at meanwhile
   let pointed = null; // share of the width that is pointed at
-  const figures = PLOTS.map(([name, unit, , lines]) => {
+  const figures = PLOTS.map(([name, unit, , lines, , , isHighest]) => {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
     const now = document.createElement("span");
-    caption.append(`${name} (${unit}) `, now);
+    caption.append(`${name} (${unit}${isHighest ? ", highest of each second" : ""}) `, now);
     const canvas = document.createElement("canvas");
     canvas.role = "img";
     canvas.ariaLabel = `${name} in the last minute: ${lines.join(", ")}`;
@@ -69,8 +70,20 @@ const plots = (() => {
     drawn = 0;
   };
 
-  function drawOne([, , least, names, , floor], index, { canvas, now }, colours, rows, row) {
+  // Of the rows of each second one with their highest values; of what is no number in a second, none.
+  function highest(rows, index) {
+    const seconds = new Map();
+    for (const row of rows) {
+      const before = seconds.get(Math.floor(row[0]));
+      if (!before || !(before[1][index][0] >= row[1][index][0])) seconds.set(Math.floor(row[0]), row);
+    }
+    return [...seconds.values()];
+  }
+
+  function drawOne([, , least, names, , floor, isHighest], index, { canvas, now }, colours, all, pointed) {
     const { context, width, height } = emptied(canvas);
+    const rows = isHighest ? highest(all, index) : all;
+    const row = isHighest ? rows.findLast(([at]) => Math.floor(at) === Math.floor(pointed[0])) : pointed;
     const values = rows.flatMap(([, all]) => all[index]).filter(Number.isFinite);
     if (!values.length) {
       now.textContent = "–";
@@ -79,7 +92,7 @@ const plots = (() => {
     let [low, high] = [Math.min(...values), Math.max(...values)];
     const room = Math.max(0, least - (high - low)) / 2 + (high - low) * 0.05;
     [low, high] = [Math.max(low - room, floor ?? -Infinity), high + room];
-    const end = rows.at(-1)[0];
+    const end = all.at(-1)[0];
     const x = (time) => width - ((end - time) / SHOWN) * (width - LEFT);
     const y = (value) => 6 + ((high - value) / (high - low)) * (height - 12 - BELOW);
     const style = getComputedStyle(canvas);
@@ -97,10 +110,10 @@ const plots = (() => {
       if (time < 0 || x(time) > width - 20) continue;
       context.fillText(`${time} s`, x(time) - 8, height - 3);
     }
-    if (row !== rows.at(-1)) {
+    if (pointed !== all.at(-1)) {
       context.beginPath();
-      context.moveTo(x(row[0]), 6);
-      context.lineTo(x(row[0]), height - BELOW);
+      context.moveTo(x(pointed[0]), 6);
+      context.lineTo(x(pointed[0]), height - BELOW);
       context.stroke();
     }
     const digits = least >= 10 ? 0 : least >= 5 ? 1 : 2;
@@ -116,8 +129,8 @@ const plots = (() => {
       context.lineWidth = 1.5;
       context.beginPath();
       let open = false;
-      for (const [time, all] of rows) {
-        const value = all[index][line];
+      for (const [time, values] of rows) {
+        const value = values[index][line];
         if (!Number.isFinite(value)) {
           open = false;
           continue;
