@@ -579,14 +579,20 @@ fn the_page_and_the_report_can_be_used_by_everybody() {
     station.end();
 }
 
-/// All views, narrow and wide, in light and dark, where nothing is wider than the window.
+/// All views of a drone in the air, narrow and wide, in light and dark, where nothing is wider than the window.
 #[test]
 fn the_page_fits_telephones_and_large_screens() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0", &["--mock"]);
+    let plan = plan_file(
+        "takeoff\nsetStayTime 90\ngoto 0 1 0 0\nsetStayTime 1\ngoto -1.5 -0.55 -0.25 -180\nland\n",
+    );
+    let path = plan.path().to_str().unwrap().to_owned();
+    let station = Station::start("0", &["--mock", "--plan", &path]);
     let tab = chromium.open(&station.url);
-    planner(&mut chromium, &tab);
-    for (width, height) in [(360, 740), (820, 1180), (1366, 768), (1920, 1080)] {
+    chromium.wait(&tab, "status?.phase === 'flying' && status.pose?.y_m > 0.8");
+    for (width, height) in
+        [(360, 740), (390, 844), (820, 1180), (1366, 768), (1400, 860), (1920, 1080)]
+    {
         for scheme in ["light", "dark"] {
             chromium.look(&tab, [width, height], scheme);
             for name in ["fly", "plan", "plots", "flights", "settings"] {
@@ -594,6 +600,13 @@ fn the_page_fits_telephones_and_large_screens() {
                 chromium.wait(&tab, &format!("view === '{name}'"));
                 let wide = number(&mut chromium, &tab, "document.documentElement.scrollWidth");
                 assert!(wide <= f64::from(width), "{name} is {wide} wide at {width}");
+                if name == "plan" && width >= 1366 {
+                    // Each step has one line.
+                    let rows = "document.querySelectorAll('#draftsteps li')";
+                    let first = number(&mut chromium, &tab, &format!("{rows}[0].clientHeight"));
+                    let target = number(&mut chromium, &tab, &format!("{rows}[4].clientHeight"));
+                    assert!(target < 1.5 * first, "{target} and {first} at {width}");
+                }
                 chromium.picture(&tab, &format!("{name}-{width}-{scheme}"));
             }
         }

@@ -109,7 +109,9 @@ function begin(message) {
   decided = "";
   // Another run of the program has begun, or this one goes on.
   over = stepsDone = status = null;
-  $("plan").textContent = message.plan || "ardrone-pilot";
+  // The end of a path says more than its beginning.
+  $("plan").textContent = message.plan.split(/[\\/]/).at(-1) || "ardrone-pilot";
+  $("plan").title = message.plan;
   document.title = [message.plan, message.vehicle, "ardrone-pilot"].filter(Boolean).join(" – ");
   $("vehicle").textContent = message.vehicle;
   $("nodrone").textContent = message.drone;
