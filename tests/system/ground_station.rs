@@ -458,6 +458,8 @@ fn a_drone_that_is_not_found_is_looked_for() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start("0", &["--drone", "127.0.0.1"]);
     let tab = chromium.open(&station.url);
+    // The page is complete.
+    chromium.wait(&tab, "view === 'plan'");
     chromium.click(&tab, "[data-show=fly]", [0.0; 2]);
     chromium.wait(&tab, "!document.querySelector('#advice').hidden");
     let advice = chromium.evaluate(&tab, "document.querySelector('#advice').innerText");

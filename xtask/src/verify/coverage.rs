@@ -14,8 +14,11 @@ use super::{VerifyError, folder, in_file};
 /// Test filters: flights in simulated time, and the agent's own tests.
 const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
 
-/// Locked by `.ci/run` while it runs the tests.
-const TESTS_LOCK: &str = "tests.lock";
+/// The programs with counters are built here: they must not take the place of those without.
+const BUILT: &str = "coverage";
+
+/// Locked by `.ci/run` while it fills that folder with what is built already.
+const LOCK: &str = "coverage.lock";
 
 /// Coverage of one plan.
 #[derive(Debug, Clone)]
@@ -69,22 +72,22 @@ impl Coverage {
 
 /// Runs the tests with instrumented C.
 pub(super) fn measure() -> Result<Coverage, VerifyError> {
-    let counted = folder("coverage");
+    let counted = folder("verify").join("coverage");
     std::fs::create_dir_all(&counted).map_err(in_file("cannot make", &counted))?;
     let counted = counted.canonicalize().map_err(in_file("cannot find", &counted))?;
     for path in files(&counted, "gcda")? {
         std::fs::remove_file(&path).map_err(in_file("cannot remove", &path))?;
     }
-    // Programs with counters take the place of those without, which `.ci/run` must not be testing.
-    let lock = folder(TESTS_LOCK);
-    let tested = File::create(&lock).map_err(in_file("cannot make", &lock))?;
-    tested.lock().map_err(in_file("cannot wait for", &lock))?;
+    let lock = folder(LOCK);
+    let filled = File::create(&lock).map_err(in_file("cannot make", &lock))?;
+    filled.lock().map_err(in_file("cannot wait for", &lock))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tests = Command::new(&cargo);
     // Of the whole workspace: of two packages alone, dependencies have other features, and would be built again.
     tests.args(["test", "--locked", "--quiet", "--workspace", "--lib", "--test", "system", "--"]);
     tests.args(TESTS);
-    let output = tests.env("AGENT_COVERAGE", &counted).output();
+    tests.env("AGENT_COVERAGE", &counted).env("CARGO_TARGET_DIR", folder(BUILT));
+    let output = tests.output();
     let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
