@@ -50,6 +50,9 @@ impl Default for ApproachSettings {
 /// Charge at which the agent lands, in percent: its belief `landingBattery`.
 pub const LANDING_BATTERY_PERCENT: u32 = 12;
 
+/// Charge from which the agent warns, in percent: its belief `warningBattery`.
+pub const WARNING_BATTERY_PERCENT: u32 = 20;
+
 /// Heading tolerance for reaching a target, in degrees.
 const REACH_ANGLE_DEG: f64 = 5.0;
 

@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use autopilot::agent::{LANDING_BATTERY_PERCENT, PLANS, SOURCE, plan_text};
+use autopilot::agent::{
+    LANDING_BATTERY_PERCENT, PLANS, SOURCE, WARNING_BATTERY_PERCENT, plan_text,
+};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{
     Declaration, FlightLimits, LANGUAGE, Plan, Step, battery_percent, expectations,
@@ -12,6 +14,7 @@ use autopilot::vehicle::{Telemetry, VehicleConfig, VehicleName};
 use diagnostic::printable;
 use serde_json::{Value, json};
 
+use super::files::PLAN_BYTES;
 use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
 use crate::json;
@@ -147,6 +150,8 @@ impl Snapshot {
             "ceiling_m": self.limits.ceiling_m,
             "battery_percent_s": battery_percent(Duration::from_secs(1)),
             "battery_lands_percent": LANDING_BATTERY_PERCENT,
+            "battery_warns_percent": WARNING_BATTERY_PERCENT,
+            "plan_bytes": PLAN_BYTES,
             "plans": plans,
             "words": typed::remote_words().collect::<Vec<_>>(),
             "commands": LANGUAGE.iter().map(command).collect::<Vec<_>>(),

@@ -409,6 +409,15 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
 }
 
 #[test]
+fn the_agents_limits_of_the_charge_are_those_that_others_are_told() {
+    for (belief, percent) in
+        [("warningBattery", WARNING_BATTERY_PERCENT), ("landingBattery", LANDING_BATTERY_PERCENT)]
+    {
+        assert!(SOURCE.contains(&format!("\n{belief}({percent}).\n")), "{belief}");
+    }
+}
+
+#[test]
 fn a_blind_descent_does_not_wait_with_an_empty_battery() {
     let lands = LANDING_BATTERY_PERCENT;
     for (percent, command) in [(lands + 1, AgentCommand::Hover), (lands, AgentCommand::Land)] {

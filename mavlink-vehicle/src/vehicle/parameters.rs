@@ -1,13 +1,10 @@
 //! Parameters: numbers that exist. Limits of safety can be read, not written.
 
-use autopilot::agent::LANDING_BATTERY_PERCENT;
+use autopilot::agent::{LANDING_BATTERY_PERCENT, WARNING_BATTERY_PERCENT};
 use mavlink_core::types::CharArray;
 
 use super::{Autopilot, Config};
 use crate::dialect::{MavMessage, PARAM_VALUE_DATA};
-
-/// From this charge on stations are warned.
-pub(super) const LOW_BATTERY_PERCENT: u32 = 20;
 
 /// `MAV_PARAM_TYPE_REAL32`: clients disagree on how integers travel in a float, and on floats they agree.
 const REAL32: u8 = 9;
@@ -71,7 +68,7 @@ impl Parameters {
         let radius_m = limits.border.furthest_m() as f32;
         let percent = |percent: u32| f64::from(percent) as f32;
         let (low_percent, landing_percent) =
-            (percent(LOW_BATTERY_PERCENT), percent(LANDING_BATTERY_PERCENT));
+            (percent(WARNING_BATTERY_PERCENT), percent(LANDING_BATTERY_PERCENT));
         let fastest_m_s = config.max_speed_m_s as f32;
         let fixed = |name, value| Parameter { name, value, range: None };
         let free = |name, value, low, high| Parameter { name, value, range: Some((low, high)) };

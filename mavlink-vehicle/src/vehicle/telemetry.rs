@@ -4,13 +4,12 @@ mod progress;
 
 use std::time::Duration;
 
-use autopilot::agent::LANDING_BATTERY_PERCENT;
+use autopilot::agent::{LANDING_BATTERY_PERCENT, WARNING_BATTERY_PERCENT};
 use autopilot::vehicle::{LandingReason, Phase, Status, Trust};
 use kinematics::Pose;
 use mavlink_core::types::CharArray;
 
 use super::modes::Mode;
-use super::parameters::LOW_BATTERY_PERCENT;
 use super::schedule::HEARTBEAT;
 use super::{Autopilot, MavlinkVehicle, To};
 use crate::dialect::{
@@ -255,7 +254,7 @@ impl View<'_> {
             battery_remaining: i8::try_from(percent).unwrap_or(100),
             charge_state: if percent <= LANDING_BATTERY_PERCENT {
                 MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL
-            } else if percent <= LOW_BATTERY_PERCENT {
+            } else if percent <= WARNING_BATTERY_PERCENT {
                 MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW
             } else {
                 MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK

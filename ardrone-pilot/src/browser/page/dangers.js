@@ -10,8 +10,6 @@ const dangers = (() => {
   const [LATE_S, LOST_S] = [0.5, 2];
   // Position uncertainty from which the place is doubtful, in metres.
   const DOUBTFUL_M = 1;
-  // At this charge and less it must land soon, in percent: the agent's `warningBattery`.
-  const LOW = 20;
   const MUTED = "ardrone-pilot muted";
 
   let warned = { text: "", at: -Infinity }; // the last event that warns
@@ -47,7 +45,7 @@ const dangers = (() => {
     if (flies && status.battery_percent !== null && status.battery_percent <= flight.battery_lands_percent) return { level: "alarm", text: `BATTERY at ${status.battery_percent} %: land now.` };
     if (flies && status.contradicted_by) return { level: "alarm", text: `THE PLACE IS WRONG: ${status.contradicted_by} contradicts it. Watch the drone itself; land, or fly it by hand.` };
     if (flies && age > LATE_S) return { level: "warn", text: `No navdata for ${age.toFixed(1)} s: the drone hovers until they come.` };
-    if (flies && status.battery_percent !== null && status.battery_percent <= LOW) return { level: "warn", text: `Battery at ${status.battery_percent} %: land soon.` };
+    if (flies && status.battery_percent !== null && status.battery_percent <= flight.battery_warns_percent) return { level: "warn", text: `Battery at ${status.battery_percent} %: land soon.` };
     if (flies && status.horizontal_deviation_m > DOUBTFUL_M) return { level: "warn", text: `The place is known to ${status.horizontal_deviation_m.toFixed(1)} m only: watch the drone itself.` };
     if (now - warned.at < SHOWN) return { level: "warn", text: warned.text };
     return null;

@@ -114,6 +114,7 @@ function begin(message) {
   $("plan").title = message.plan;
   document.title = [message.plan, message.vehicle, "ardrone-pilot"].filter(Boolean).join(" – ");
   $("vehicle").textContent = message.vehicle;
+  $("charge").low = message.battery_warns_percent;
   $("nodrone").textContent = message.drone;
   $("nomission").hidden = message.steps.length > 0;
   $("edit").hidden = !message.steps.length;
@@ -290,7 +291,7 @@ function drawFacts() {
   put("time", status.flight_time_s === null ? "–" : minutes(status.flight_time_s));
   put("step", status.step === null ? "–" : `${status.step + 1} of ${status.steps}`);
   const volts = status.battery_v ? `, ${status.battery_v.toFixed(1)} V` : "";
-  put("battery", charge === null ? "–" : `${charge} %${volts}`, charge !== null && charge <= 20);
+  put("battery", charge === null ? "–" : `${charge} %${volts}`, charge !== null && charge <= flight.battery_warns_percent);
   $("charge").value = charge || 0;
   // Until it is landed for its charge, by the use of a hover with a new battery.
   const left = charge === null ? null : Math.max(0, charge - flight.battery_lands_percent) / flight.battery_percent_s;

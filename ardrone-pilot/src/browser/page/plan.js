@@ -14,8 +14,6 @@ land
   const KEPT = "ardrone-pilot plan";
   // Time to confirm what cannot be taken back, in milliseconds.
   const AGAIN = 3000;
-  // Largest plan that is taken, as of the server.
-  const MOST_BYTES = 32 << 10;
   // Targets that are closer than this share a mark, in sizes of a mark.
   const SHARES = 0.5;
   // Problems that are listed; nobody reads more.
@@ -85,7 +83,7 @@ land
     changed();
   }
 
-  const isLarge = () => new Blob([text.value]).size > MOST_BYTES;
+  const isLarge = () => new Blob([text.value]).size > flight.plan_bytes;
   const isUnsaved = () => text.value !== saved;
 
   function changed() {
@@ -126,7 +124,7 @@ land
     drawChecked();
   }
 
-  const tooLarge = (what, bytes) => `${what} has ${(bytes / 1024).toFixed(0)} kB; a plan is text of at most ${MOST_BYTES >> 10} kB`;
+  const tooLarge = (what, bytes) => `${what} has ${(bytes / 1024).toFixed(0)} kB; a plan is text of at most ${flight.plan_bytes >> 10} kB`;
 
   // Not by the answer for another text, while that for this one is on its way.
   const isGood = () => Boolean(checked && checked.steps && !stale && !checking);
@@ -429,7 +427,7 @@ land
     $("upload").value = "";
     if (!file) return;
     // Looked at before it is read: a large one would be slow to show.
-    if (file.size > MOST_BYTES) answer(`${tooLarge(file.name, file.size)}.`);
+    if (file.size > flight.plan_bytes) answer(`${tooLarge(file.name, file.size)}.`);
     else if (await mayOpen(file.name)) open(file.name, await file.text());
   };
   $("saveplan").onclick = async () => {
