@@ -421,6 +421,19 @@ fn files_are_bounded_and_nothing_else_is_reached() {
         let answer = station.request("GET", &format!("/flights/{name}/report"), "", "");
         assert_eq!(status(&answer), "400", "{name}: {answer}");
     }
+    for wrong in [
+        r#"{"fence":4}"#,
+        r#"{"fence":{"radius_m":"4"}}"#,
+        r#"{"fence":[]}"#,
+        r#"{"hall":{}}"#,
+        "[]",
+        "4",
+        "",
+    ] {
+        assert_eq!(put("/settings", "", wrong), "422", "{wrong}");
+    }
+    let answer = station.request("PUT", "/settings", "", r#"{"fence":4}"#);
+    assert!(answer.contains("integer `4`") && answer.contains("fence"), "{answer}");
     assert_eq!(status(&station.request("GET", "/plans/../secret.txt", "", "")), "404");
     assert_eq!(status(&station.request("GET", "/plans/none.txt", "", "")), "404");
     let large = "#".repeat(40 << 10);

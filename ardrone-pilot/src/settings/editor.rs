@@ -65,6 +65,14 @@ impl Settings {
 /// [`SettingsError`] if the file was wrong, or is with these values.
 pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, SettingsError> {
     Settings::parse(path, text)?;
+    // What is no section, or no setting of one, must not be passed over. A list would be read as the values of a section.
+    if let Some((section, value)) = changes.iter().find(|(_, value)| value.is_array()) {
+        return Err(SettingsError::Change(format!("`{section}` is {value}, and no section")));
+    }
+    let shape: Result<Settings, _> = changes.clone().try_into();
+    if let Err(error) = shape {
+        return Err(SettingsError::Change(error.to_string().trim_end().to_owned()));
+    }
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     for (section, values) in changes {
         for (name, value) in values.as_table().into_iter().flatten() {
@@ -170,6 +178,9 @@ mod tests {
             "[fence]\nwidth = 4\n",
             "[hall]\nx = 1\n",
             "[drone]\ngps = 1\n",
+            "fence = 4\n",
+            "fence = []\n",
+            "[hall]\n",
         ] {
             assert!(
                 with_changes("p", "[fence]\nradius_m = 3\n", &changes(wrong)).is_err(),
@@ -177,5 +188,7 @@ mod tests {
             );
         }
         assert!(with_changes("p", "[fence\n", &Table::new()).is_err());
+        let said = with_changes("p", "", &changes("fence = 4\n")).unwrap_err().to_string();
+        assert!(said.contains("integer `4`") && said.contains("fence"), "{said}");
     }
 }

@@ -55,6 +55,9 @@ pub enum SettingsError {
         /// One reason for each value.
         reasons: Vec<String>,
     },
+    /// What is to be changed is no section, no setting of one, or has a wrong type.
+    #[error("settings are changed as sections with values: {0}")]
+    Change(String),
 }
 
 /// The sample's first lines.
