@@ -382,6 +382,34 @@ fn no_client_disturbs_the_flight() {
     println!("{printed}");
 }
 
+/// Who is disconnected for what it sends knows why: each message is answered before, however fast they came.
+#[test]
+fn garbage_is_answered_before_the_end() {
+    let flown = Flown::start(HOVER);
+    let mut garbage = flown.live();
+    garbage.next("status");
+    for count in 0..11 {
+        garbage.order(&json!({ "order": format!("fall {count}") }));
+    }
+    let mut answers = Vec::new();
+    let closed = loop {
+        match garbage.0.read() {
+            Ok(Message::Text(text)) => {
+                let message: Value = serde_json::from_str(&text).unwrap();
+                if message["type"] == "refused" {
+                    answers.push(message["reason"].as_str().unwrap().to_owned());
+                }
+            }
+            Ok(Message::Close(_)) => break true,
+            Ok(_) => {}
+            Err(tungstenite::Error::Io(error)) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => panic!("{error} after {answers:?}"),
+        }
+    };
+    assert!(closed && answers.len() == 11, "{answers:?}");
+    assert!((0..11).all(|at| answers[at].contains(&format!("fall {at}"))), "{answers:?}");
+}
+
 /// Reading their plans is work: what all vehicles share has only two threads.
 #[test]
 fn pages_that_load_without_end_hold_up_no_signal() {

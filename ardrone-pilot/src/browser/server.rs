@@ -1,6 +1,7 @@
 //! HTTP and WebSocket server of the page.
 
 use std::net::TcpListener;
+use std::pin::pin;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -316,9 +317,23 @@ async fn live(
             let (answers, answered) = mpsc::channel(BEHIND);
             reply(&answers, &json!({ "type": "you", "name": by.to_string(), "local": by.local }));
             // Orders are received even while writing is blocked.
-            tokio::select! {
-                () = write(sink, &shared, answered) => {}
-                () = read(stream, &shared, answers, by) => {}
+            let mut written = pin!(write(sink, &shared, answered));
+            let garbage = tokio::select! {
+                () = &mut written => None,
+                garbage = read(stream, &shared, answers, by) => garbage,
+            };
+            // Each request is answered before the end. What arrives meanwhile is thrown away: what is left unread would
+            // reset the connection, and the answers with it.
+            if let Some(mut stream) = garbage {
+                let parting = async {
+                    tokio::select! {
+                        () = written => {}
+                        () = discard(&mut stream) => {}
+                    }
+                    discard(&mut stream).await;
+                };
+                // Whoever does not end by itself is disconnected.
+                _ = timeout(WRITE_TIME, parting).await;
             }
             // A page that is gone must not keep the controls. If the queue is full, a local operator can
             // still take them.
@@ -367,7 +382,11 @@ async fn write(
                 }
                 Err(broadcast::error::RecvError::Closed) => break,
             },
-            Some(answer) = answers.recv() => answer,
+            answer = answers.recv() => match answer {
+                Some(answer) => answer,
+                // Nothing more is read, and everything is answered.
+                None => break,
+            },
         };
     }
     // The page may be gone already.
@@ -387,25 +406,32 @@ fn reply(answers: &mpsc::Sender<ws::Utf8Bytes>, answer: &Value) {
     _ = answers.try_send(answer.to_string().into());
 }
 
-/// Passes on a page's orders until it is gone or sends garbage.
+/// Reads until the other end is gone, no faster than a page's orders.
+async fn discard(stream: &mut SplitStream<WebSocket>) {
+    while let Some(Ok(_)) = stream.next().await {
+        sleep(FAST_WAIT).await;
+    }
+}
+
+/// Passes on a page's orders until it is gone, or sends garbage: the stream is returned then.
 async fn read(
     mut stream: SplitStream<WebSocket>,
     shared: &Shared,
     answers: mpsc::Sender<ws::Utf8Bytes>,
     by: Operator,
-) {
+) -> Option<SplitStream<WebSocket>> {
     let start = Instant::now();
     let mut requests = Requests::default();
     loop {
         if requests.are_fast() {
             sleep(FAST_WAIT).await;
         }
-        let Some(Ok(message)) = stream.next().await else { return };
+        let Some(Ok(message)) = stream.next().await else { return None };
         let text = match &message {
             ws::Message::Text(text) => text.as_str(),
             ws::Message::Binary(_) => "",
             ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
-            ws::Message::Close(_) => return,
+            ws::Message::Close(_) => return None,
         };
         let now = start.elapsed();
         let mut order = || requests.order(now, text, shared.files.planning());
@@ -436,7 +462,7 @@ async fn read(
         };
         reply(&answers, &answer);
         if requests.is_garbage() {
-            return;
+            return Some(stream);
         }
     }
 }
