@@ -410,6 +410,35 @@ fn garbage_is_answered_before_the_end() {
     assert!((0..11).all(|at| answers[at].contains(&format!("fall {at}"))), "{answers:?}");
 }
 
+/// A local operator has the controls by giving an order, whoever had them, and everybody is told; what anyone may do leaves
+/// them where they are.
+#[test]
+fn a_plan_that_is_loaded_in_the_air_takes_the_controls() {
+    let flown = Flown::start(HOVER);
+    let (mut one, mut other) = (flown.live(), flown.live());
+    let names = [one.next("you"), other.next("you")].map(|you| you["name"].clone());
+    while one.next("status")["phase"] != "flying" {}
+    let holds = |live: &mut Live, name: &Value| while live.next("status")["controls"] != *name {};
+    one.order(&json!({ "order": "take" }));
+    holds(&mut one, &names[0]);
+    other.order(&json!({ "order": "hold" }));
+    let held = loop {
+        let status = other.next("status");
+        if status["mission_waits"] == true {
+            break status;
+        }
+    };
+    assert_eq!(held["controls"], names[0]);
+    let plan = "takeoff\ngoto 1 0 0 0\nland\n";
+    other.order(&json!({ "order": "load", "name": "other", "plan": plan }));
+    while other.next("accepted")["order"] != "load" {}
+    let told = |event: &Value| event["text"].as_str().unwrap().contains("has taken the controls");
+    while !told(&one.next("event")) {}
+    holds(&mut one, &names[1]);
+    // It was held: the new plan waits, too.
+    assert_eq!(one.next("status")["mission_waits"], true);
+}
+
 /// Reading their plans is work: what all vehicles share has only two threads.
 #[test]
 fn pages_that_load_without_end_hold_up_no_signal() {
