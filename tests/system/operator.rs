@@ -286,3 +286,71 @@ fn a_reload_knows_the_camera_and_the_landing() {
     assert_eq!(said, false);
     assert!(text(&mut chromium, &tab, "#time").starts_with("0:0"));
 }
+
+/// The voltage that the drone measures is beside its charge.
+#[test]
+fn the_battery_has_volts() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0");
+    let tab = chromium.open(&station.url);
+    chromium.wait(
+        &tab,
+        "/^\\d+ %, \\d+\\.\\d V$/.test(document.querySelector('#battery').textContent)",
+    );
+    let shown = text(&mut chromium, &tab, "#battery");
+    let volts: f64 = shown.split(", ").nth(1).unwrap().trim_end_matches(" V").parse().unwrap();
+    // Three cells of lithium polymer.
+    assert!((9.0..=12.6).contains(&volts), "{shown}");
+    let told = chromium.evaluate(&tab, "status.battery_v").as_f64().unwrap();
+    assert!((told - volts).abs() < 0.3, "{told}, {shown}");
+}
+
+/// A gamepad moves what its axes were chosen for while a shoulder button is held; centred or unplugged it moves nothing.
+#[test]
+fn a_gamepad_steers_by_its_chosen_axes_and_holds_when_it_is_gone() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::flying();
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "status?.phase === 'flying' && status.step >= 1");
+    let pad = "window.pad = { id: 'pad', connected: true, axes: [0, 0, 0, 0, 0, 0], \
+        buttons: [...Array(8)].map(() => ({ pressed: false })) }; \
+        navigator.getGamepads = () => [null, window.pad]; window.sent = []; \
+        const send = order; order = (it) => { sent.push(it); send(it); }; true";
+    chromium.evaluate(&tab, pad);
+    // Forward and back by the sixth axis.
+    chromium.click(&tab, "[data-show=settings]", [0.0; 2]);
+    chromium
+        .wait(&tab, "document.querySelectorAll('#padaxes label:nth-child(4) option').length === 6");
+    chromium.choose(&tab, "#padaxes label:nth-child(4) select", "5");
+    let chosen = "{ const choice = document.querySelector('#padaxes label:nth-child(4) select'); choice.oninput(); }";
+    chromium.evaluate(&tab, chosen);
+    chromium.click(&tab, "[data-show=fly]", [0.0; 2]);
+    chromium.click(&tab, "#byhand", [0.0; 2]);
+    let pause = || std::thread::sleep(std::time::Duration::from_millis(500));
+    // Without a shoulder button, and centred but for a tremor, it steers nothing: the mission goes on.
+    chromium.evaluate(&tab, "pad.axes[5] = -0.8; true");
+    pause();
+    chromium
+        .evaluate(&tab, "pad.axes = [0.05, -0.05, 0, 1, 0, 0.05]; pad.buttons[5].pressed = true");
+    pause();
+    let steered = "sent.some((it) => it.order === 'steer')";
+    // The fourth axis was the one of forward and back, and moves nothing now.
+    assert_eq!(chromium.evaluate(&tab, steered), false);
+    assert_eq!(chromium.evaluate(&tab, "status.mission_waits"), false);
+    chromium.evaluate(&tab, "pad.axes = [0, 0, 0, 0, 0, -0.8]; true");
+    chromium.wait(&tab, "status.velocity_m_s[1] > 0.3 && status.mission_waits");
+    let last = "JSON.stringify(sent.filter((it) => it.order === 'steer').at(-1))";
+    let forward = chromium.evaluate(&tab, last);
+    let forward: serde_json::Value = serde_json::from_str(forward.as_str().unwrap()).unwrap();
+    assert!((forward["pitch"].as_f64().unwrap() + 0.64).abs() < 1e-9, "{forward}");
+    for axis in ["roll", "gaz", "yaw"] {
+        assert_eq!(forward[axis].as_f64(), Some(0.0), "{forward}");
+    }
+    // Unplugged while it is pushed: the sticks are centred once, and the drone holds.
+    chromium.evaluate(&tab, "window.pad = null; sent.length = 0");
+    chromium.wait(&tab, "Math.abs(status.velocity_m_s[1]) < 0.1");
+    let steers = "JSON.stringify(sent.map(({ order, ...sticks }) => sticks))";
+    let centred = r#"[{"roll":0,"pitch":0,"gaz":0,"yaw":0}]"#;
+    assert_eq!(chromium.evaluate(&tab, steers), centred);
+    assert_eq!(chromium.evaluate(&tab, "status.phase === 'flying' && status.mission_waits"), true);
+}

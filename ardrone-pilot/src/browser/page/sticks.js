@@ -69,7 +69,7 @@
     }
   }
 
-  const connected = () => [...(navigator.getGamepads?.() ?? [])].filter(Boolean);
+  const connected = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && pad.connected !== false);
   // From −1 to 1, without the tremor of a stick that is let go.
   function deflection(pad, { axis, sign, rest }) {
     const value = sign * ((pad.axes[axis] ?? rest) - rest);
