@@ -221,7 +221,7 @@ impl Chromium {
     }
 
     /// The middle of an element that has come to rest.
-    fn middle(&mut self, tab: &Tab, selector: &str) -> [f64; 2] {
+    pub(crate) fn middle(&mut self, tab: &Tab, selector: &str) -> [f64; 2] {
         let middle = format!(
             "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
              [box.x + box.width / 2, box.y + box.height / 2] }}"
@@ -258,6 +258,15 @@ impl Chromium {
             });
             self.call(Some(tab), "Input.dispatchKeyEvent", &event);
         }
+    }
+
+    /// Touches with fingers at places of the window, in pixels: `touchStart`, `touchMove`, or none with `touchEnd`.
+    pub(crate) fn touch(&mut self, tab: &Tab, kind: &str, fingers: &[[f64; 2]]) {
+        let fingers: Vec<Value> = (fingers.iter().enumerate())
+            .map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id }))
+            .collect();
+        let event = json!({ "type": kind, "touchPoints": fingers });
+        self.call(Some(tab), "Input.dispatchTouchEvent", &event);
     }
 
     /// Presses a key, or repeats one that is pressed already.

@@ -256,6 +256,56 @@ fn the_map_is_moved_and_keeps_what_is_pointed_at() {
     );
 }
 
+/// Two fingers move and zoom the map: the place between them stays there, and the scale changes as their distance.
+#[test]
+fn two_fingers_zoom_about_what_is_between_them() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start();
+    let tab = planner(&mut chromium, &station);
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let middle = chromium.middle(&tab, "#map");
+    // What is at a place of the window, and metres a pixel there.
+    let seen = |chromium: &mut Chromium, [x, y]: [f64; 2]| {
+        let seen = format!(
+            "{{ const at = (clientX) => map.place({{ clientX, clientY: {y} }}); \
+             const [here, right] = [at({x}), at({x} + 100)]; [here.x, here.y, (right.x - here.x) / 100] }}"
+        );
+        let seen = chromium.evaluate(&tab, &seen);
+        [0, 1, 2].map(|index| seen[index].as_f64().unwrap())
+    };
+    let before = seen(&mut chromium, [middle[0] - 60.0, middle[1] - 40.0]);
+    // Both move, by different ways: apart from 100 to 250 pixels, and their middle by 90 and 70.
+    let fingers = |part: f64| {
+        let (x, y) = (middle[0] - 60.0 + 90.0 * part, middle[1] - 40.0 + 70.0 * part);
+        let half = 50.0 + 75.0 * part;
+        [[x - 0.6 * half, y - 0.8 * half], [x + 0.6 * half, y + 0.8 * half]]
+    };
+    // One of them begins on a target, which stays where it is.
+    let [on_target, _] = fingers(0.0);
+    let on_target = format!(
+        "!!document.elementFromPoint({}, {}).closest('#drafts .free')",
+        on_target[0], on_target[1]
+    );
+    assert_eq!(chromium.evaluate(&tab, &on_target), true);
+    let text = chromium.evaluate(&tab, "plan.text()");
+    chromium.touch(&tab, "touchStart", &fingers(0.0));
+    for step in 1..=10 {
+        chromium.touch(&tab, "touchMove", &fingers(f64::from(step) / 10.0));
+    }
+    chromium.touch(&tab, "touchEnd", &[]);
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let after = seen(&mut chromium, [middle[0] + 30.0, middle[1] + 30.0]);
+    // A tremor of four pixels begins no gesture.
+    let off = (after[0] - before[0]).hypot(after[1] - before[1]) / after[2];
+    assert!(
+        off < 5.0,
+        "the place between the fingers is {off:.1} pixels away: {before:?}, {after:?}"
+    );
+    let zoom = before[2] / after[2];
+    assert!((zoom - 2.5).abs() < 0.1, "{zoom}");
+    assert_eq!(chromium.evaluate(&tab, "plan.text()"), text);
+}
+
 /// Sixty steps and ten minutes of flown way are drawn at thirty pictures a second, on the map and in three dimensions.
 #[test]
 #[ignore = "measures"]

@@ -39,6 +39,7 @@ const map = (() => {
   let mode = "all"; // what the view shows: "all", "drone", or what was "chosen" by hand
   const fingers = new Map(); // pointers on the map: [x, y] in pixels
   let moved = false; // the last press has moved the map
+  let onTarget = false; // it began on a target that can be dragged
   let approachedAt = 0; // when the view last followed
   let trailDrawn = null; // what is drawn of the flown way
   let tags = new Map(); // marks of the known tags by their number
@@ -279,7 +280,12 @@ const map = (() => {
     mode = "chosen";
   }
 
-  const spot = ([clientX, clientY]) => place({ clientX, clientY });
+  // Where a finger is after all moves so far, also those that are not drawn yet.
+  function spot([x, y]) {
+    const box = $("map").getBoundingClientRect();
+    const metres = (2 * view.half) / Math.min(box.width, box.height);
+    return { x: view.x + (x - box.x - box.width / 2) * metres, y: view.y - (y - box.y - box.height / 2) * metres };
+  }
   // Middle and span of two fingers.
   function pinched() {
     const [[x, y], [u, v]] = [...fingers.values()];
@@ -296,14 +302,18 @@ const map = (() => {
       fingers.clear();
       moved = false;
     }
-    // A target is dragged by itself.
-    if (event.target.closest("#drafts .free")) return;
+    // A target is dragged by itself, but two fingers zoom wherever they are.
+    if (event.isPrimary) onTarget = Boolean(event.target.closest("#drafts .free"));
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
   });
   $("map").addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
     if (!before || !view) return;
     const now = [event.clientX, event.clientY];
+    if (onTarget && fingers.size === 1) {
+      fingers.set(event.pointerId, now);
+      return;
+    }
     if (!moved && Math.hypot(now[0] - before[0], now[1] - before[1]) < TREMBLES) return;
     if (!moved) $("map").setPointerCapture(event.pointerId);
     moved = true;

@@ -347,6 +347,11 @@ land
   }
 
   $("map").addEventListener("pointerdown", (event) => {
+    // Two fingers zoom.
+    if (!event.isPrimary) {
+      dropped();
+      return;
+    }
     const mark = event.target.closest("#drafts g");
     dragged = false;
     pressed = Boolean(mark);
