@@ -260,6 +260,49 @@ impl Chromium {
         }
     }
 
+    /// Presses and releases a key as a keyboard does, with the text that it writes: one of a character, or `Tab`, `Enter`,
+    /// `Escape`, `ArrowDown`. `modifiers`: 2 is Ctrl, 8 is Shift.
+    ///
+    /// # Panics
+    /// If the key is another one.
+    pub(crate) fn type_key(&mut self, tab: &Tab, key: &str, modifiers: u32) {
+        let letter = key.chars().next().unwrap();
+        let (number, text) = match key {
+            "Tab" => (9, ""),
+            "Enter" => (13, "\r"),
+            "Escape" => (27, ""),
+            "ArrowLeft" => (37, ""),
+            "ArrowUp" => (38, ""),
+            "ArrowRight" => (39, ""),
+            "ArrowDown" => (40, ""),
+            "." => (190, key),
+            "-" => (189, key),
+            "+" => (187, key),
+            "?" => (191, key),
+            _ if key.len() == 1 => (u32::from(letter.to_ascii_uppercase()), key),
+            _ => panic!("{key} is not known here"),
+        };
+        let code = match letter.to_ascii_uppercase() {
+            _ if key.len() > 1 => key.to_owned(),
+            ' ' => "Space".to_owned(),
+            letter if letter.is_ascii_alphabetic() => format!("Key{letter}"),
+            digit if digit.is_ascii_digit() => format!("Digit{digit}"),
+            _ => String::new(),
+        };
+        // With Ctrl nothing is written.
+        let text = if modifiers & 2 == 0 { text } else { "" };
+        for kind in [if text.is_empty() { "rawKeyDown" } else { "keyDown" }, "keyUp"] {
+            let mut event = json!({
+                "type": kind, "key": key, "code": code, "modifiers": modifiers,
+                "windowsVirtualKeyCode": number,
+            });
+            if kind == "keyDown" {
+                event["text"] = json!(text);
+            }
+            self.call(Some(tab), "Input.dispatchKeyEvent", &event);
+        }
+    }
+
     /// Touches with fingers at places of the window, in pixels: `touchStart`, `touchMove`, or none with `touchEnd`.
     pub(crate) fn touch(&mut self, tab: &Tab, kind: &str, fingers: &[[f64; 2]]) {
         let fingers: Vec<Value> = (fingers.iter().enumerate())

@@ -16,6 +16,7 @@ mod dependencies;
 mod estimate;
 mod faults;
 mod ground_station;
+mod keyboard;
 mod lateness;
 mod mavlink;
 mod operator;

@@ -135,11 +135,22 @@ const heights = (() => {
   };
   solid.onpointermove = (event) => {
     if (!turning) return;
-    turn += (event.clientX - turning[0]) * 0.01;
-    tilt = Math.max(0.1, Math.min(1.5, tilt + (event.clientY - turning[1]) * 0.01));
+    rotate(event.clientX - turning[0], event.clientY - turning[1]);
     turning = [event.clientX, event.clientY];
-    drawnAt = 0;
   };
+  // By so many pixels of a drag.
+  function rotate(right, down) {
+    turn += right * 0.01;
+    tilt = Math.max(0.1, Math.min(1.5, tilt + down * 0.01));
+    drawnAt = 0;
+  }
+  solid.addEventListener("keydown", (event) => {
+    // By hand the arrows fly the drone.
+    const by = { ArrowLeft: [-15, 0], ArrowRight: [15, 0], ArrowUp: [0, -15], ArrowDown: [0, 15] }[event.key];
+    if (!by || document.body.classList.contains("hand")) return;
+    rotate(...by);
+    event.preventDefault();
+  });
   solid.onpointerup = solid.onpointercancel = () => (turning = null);
   solid.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -149,6 +160,8 @@ const heights = (() => {
   $("solid").onclick = () => {
     isSolid = !isSolid;
     solid.hidden = !isSolid;
+    // The map is behind it.
+    $("map").tabIndex = isSolid ? -1 : 0;
     $("solid").ariaPressed = String(isSolid);
     drawnAt = 0;
   };

@@ -331,6 +331,17 @@ const map = (() => {
   for (const end of ["pointerup", "pointercancel"]) $("map").addEventListener(end, (event) => fingers.delete(event.pointerId));
 
   const middle = () => ({ x: view.x, y: view.y });
+  // By keys as by hand: arrows move what is seen by a fifth of the map, + and − zoom. By hand the arrows fly the drone.
+  $("map").addEventListener("keydown", (event) => {
+    const flies = document.body.classList.contains("hand");
+    if (!view || flies || event.ctrlKey || event.metaKey || event.altKey) return;
+    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    const factor = { "+": 1 / 1.5, "=": 1 / 1.5, "-": 1.5 }[event.key];
+    if (by) shift({ x: 0.4 * view.half * by[0], y: 0.4 * view.half * by[1] }, { x: 0, y: 0 });
+    else if (factor) zoom(factor, middle());
+    else return;
+    event.preventDefault();
+  });
   $("nearer").onclick = () => view && zoom(1 / 1.5, middle());
   $("farther").onclick = () => view && zoom(1.5, middle());
   $("all").onclick = () => {

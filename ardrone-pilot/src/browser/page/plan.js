@@ -409,8 +409,28 @@ land
   // Whether another plan may take the place of this one.
   const mayOpen = async (name) => !isUnsaved() || (await confirmed(`Changes of ${fileName()} are not saved. Open ${name} in its place?`, "Open it"));
 
+  // By arrows and letters the list goes from name to name, and Enter opens the one that is shown.
+  let walks = false;
+  $("plans").onkeydown = (event) => {
+    const opens = walks && event.key === "Enter";
+    walks = !event.altKey && (/^(Arrow|Home|End|Page)/.test(event.key) || /^\S$/.test(event.key));
+    if (!opens) return;
+    event.preventDefault();
+    $("plans").onchange();
+  };
+  $("plans").onpointerdown = () => (walks = false);
+  $("plans").onblur = () => {
+    if (walks) answer("");
+    walks = false;
+    $("plans").value = "";
+  };
+
   $("plans").onchange = async () => {
     const name = $("plans").value;
+    if (walks) {
+      answer(name ? `Enter opens ${$("plans").selectedOptions[0].textContent}.` : "");
+      return;
+    }
     $("plans").value = "";
     if (!name) return;
     const ours = { "*": ["example.txt", EXAMPLE, "the example"], "-": ["my plan.txt", "takeoff\nland\n", "an empty plan"] }[name];

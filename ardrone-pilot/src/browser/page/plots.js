@@ -70,6 +70,13 @@ const plots = (() => {
     drawn = 0;
   };
 
+  // By keys as by the mouse: arrows move the cursor by a second.
+  document.querySelector(".plots").addEventListener("keydown", ({ key }) => {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    if (by && !document.body.classList.contains("hand")) pointed = Math.max(0, Math.min(1, (pointed ?? 1) + by / SHOWN));
+  });
+  document.querySelector(".plots").addEventListener("focusout", () => (pointed = null));
+
   // Of the rows of each second one with their highest values; of what is no number in a second, none.
   function highest(rows, index) {
     const seconds = new Map();
