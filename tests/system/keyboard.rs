@@ -256,6 +256,86 @@ fn it_is_looked_back_at(person: &mut Keyboard<'_>) {
     person.wait("document.querySelector('#plotsat').textContent.startsWith('at ')");
 }
 
+/// In the air the keys that hold and land work wherever the focus is, but in a text.
+#[test]
+fn a_drone_is_held_and_landed_from_everywhere() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start();
+    let tab = chromium.open(&station.url);
+    let mut person = Keyboard { chromium: &mut chromium, tab };
+    person.wait("!!status && !!readiness && readiness.ready");
+    let plan = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
+    let load = format!("order({})", json!({ "order": "load", "name": "hover", "plan": plan }));
+    person.chromium.evaluate(&person.tab, &load);
+    person.wait("flight.plan === 'hover'");
+    person.chromium.evaluate(&person.tab, "order({ order: 'start' })");
+    person.wait("status.phase === 'flying' && status.step >= 1");
+    let resume = |person: &mut Keyboard<'_>| {
+        person.chromium.evaluate(&person.tab, "order({ order: 'resume' })");
+        person.wait("!status.mission_waits");
+    };
+    for (view, places) in [
+        ("plan", vec!["#newstep", "#plans", "#draftsteps input", "#upload", "#map"]),
+        ("flights", vec!["#ofdate", "#ofend", "#recordings input[type=checkbox]", "#report"]),
+        ("settings", vec!["#settings select", "#settings input[type=number]", "#padaxes input"]),
+        ("plots", vec![".plots"]),
+        ("fly", vec!["summary", "#playat"]),
+    ] {
+        person.chromium.evaluate(&person.tab, &format!("show('{view}')"));
+        for place in places {
+            let there = format!("!!document.querySelector('{place}')");
+            person.wait(&there);
+            let focus = format!("document.querySelector('{place}').focus(); true");
+            if place == "#report" {
+                a_report_is_open(&mut person);
+            } else if place == "#playat" {
+                // It is not seen while something flies.
+                person
+                    .chromium
+                    .evaluate(&person.tab, "document.querySelector('#playback').hidden = false");
+            }
+            person.chromium.evaluate(&person.tab, &focus);
+            person.wait(&format!("document.activeElement.matches('{place}')"));
+            let content = format!(
+                "String([document.querySelector('{place}').value, document.querySelector('{place}').checked])"
+            );
+            let before = person.text(&content);
+            person.key(" ");
+            person.wait("status.mission_waits");
+            assert_eq!(person.text(&content), before, "{place}");
+            let open = format!("document.querySelector('{place}').matches('select:open')");
+            assert_eq!(person.chromium.evaluate(&person.tab, &open), false, "{place}");
+            resume(&mut person);
+        }
+    }
+    // A text takes them.
+    person
+        .chromium
+        .evaluate(&person.tab, "show('plan'); document.querySelector('#planname').select()");
+    person.write("l l");
+    person.wait("document.querySelector('#planname').value === 'l l'");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert_eq!(
+        person.chromium.evaluate(&person.tab, "status.mission_waits || status.phase !== 'flying'"),
+        false
+    );
+    // From inside the report.
+    person.chromium.evaluate(&person.tab, "show('flights')");
+    a_report_is_open(&mut person);
+    person.chromium.evaluate(&person.tab, "document.querySelector('#report').focus(); true");
+    person.key("l");
+    person.wait("status.phase === 'landing'");
+}
+
+/// A report is shown, and its script has begun to listen.
+fn a_report_is_open(person: &mut Keyboard<'_>) {
+    person.wait("document.querySelectorAll('#recordings .actions button').length > 0");
+    let open = "window.loaded = false; document.querySelector('#report').onload = () => (window.loaded = true); \
+        document.querySelector('#recordings .actions button').click(); true";
+    person.chromium.evaluate(&person.tab, open);
+    person.wait("window.loaded");
+}
+
 /// Whatever has the focus in a report is seen to have it.
 #[test]
 fn the_focus_is_seen_in_a_report() {

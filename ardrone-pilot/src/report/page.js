@@ -526,6 +526,14 @@ late.forEach((count, index) => {
 for (let ms = 0; ms <= 5; ms += 1) svg("text", { x: 4 + ms * 60, y: 98 }, bars, `${ms} ms`);
 
 window.addEventListener("resize", draw);
+// In the page of a drone that flies, the keys by which it holds and lands must work here, too.
+if (parent !== window) {
+  window.addEventListener("keydown", ({ key, repeat, ctrlKey, metaKey, altKey }) => {
+    if (repeat || ctrlKey || metaKey || altKey || ![" ", "l", "L"].includes(key)) return;
+    // Any origin: a key's name is no secret.
+    parent.postMessage({ key }, "*");
+  });
+}
 drawMap();
 move(begin, end - begin);
 // Where something went wrong, if anything did.

@@ -432,17 +432,19 @@ function confirmed(question, does) {
 
 // Keys as in the terminal. One that is held is one order, and letters that are typed are letters.
 const isTyped = ({ target }) => /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && target.type !== "checkbox";
+const isText = ({ target }) => ["textarea", "text"].includes(target.type);
 const isAirborne = () => Boolean(status && ["flying", "landing"].includes(status.phase));
+// What stops a drone in the air, wherever the focus is but in a text; on the ground the space bar presses a button, as everywhere.
+const stops = (key) => isAirborne() && { " ": "hold", l: "land" }[key.toLowerCase()];
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") wanted = null;
-  if (isTyped(event) || event.ctrlKey || event.metaKey || event.altKey) return;
+  const stop = stops(event.key);
+  if ((stop ? isText : isTyped)(event) || event.ctrlKey || event.metaKey || event.altKey) return;
   const dialog = document.querySelector("dialog[open]");
   // Nothing that is open stands between somebody and a drone that must hold or land.
-  if (dialog && !(isAirborne() && [" ", "l"].includes(event.key.toLowerCase()))) return;
+  if (dialog && !stop) return;
   dialog?.close("no");
-  const does = {
-    // In the air it holds, whatever button was pressed last; on the ground it presses a button, as everywhere.
-    " ": isAirborne() && "hold",
+  const does = stop || {
     l: "land",
     r: status && status.mission_waits && "resume",
   }[event.key.toLowerCase()];
@@ -451,13 +453,19 @@ document.addEventListener("keydown", (event) => {
   else if (!event.repeat) order({ order: does });
   event.preventDefault();
 });
+// A report is a frame of another origin, which tells of these keys. Nothing else is taken from it.
+addEventListener("message", ({ source, data }) => {
+  if (source !== $("report").contentWindow || typeof data?.key !== "string") return;
+  const stop = stops(data.key);
+  if (stop) order({ order: stop });
+});
 // A held Enter would press a button again and again, and so confirm what it has just announced.
 document.addEventListener("keydown", (event) => {
   if (event.repeat && event.key === "Enter" && !isTyped(event)) event.preventDefault();
 }, true);
 // What has the focus is pressed by the release of the space bar.
 document.addEventListener("keyup", (event) => {
-  if (event.key === " " && isAirborne() && !isTyped(event)) event.preventDefault();
+  if (event.key === " " && isAirborne() && !isText(event)) event.preventDefault();
 });
 
 // A page in the background is not drawn, and must be heard all the same.
