@@ -23,6 +23,8 @@ impl Station {
     fn start(address: &str, arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut pilot = program("ardrone-pilot");
+        // Its settings would be written there.
+        pilot.current_dir(folder.path());
         pilot.args(["--plain", "--ui", address, "--log"]).arg(folder.path().join("flights.mcap"));
         pilot.arg("--plans").arg(folder.path().join("plans")).args(arguments);
         let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
