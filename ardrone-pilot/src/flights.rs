@@ -31,18 +31,28 @@ pub(crate) fn flights(log: &Log) -> Vec<RecordedFlight> {
     let mut flights = Vec::new();
     let mut plan = log.plan_name.clone();
     let mut flight: Option<RecordedFlight> = None;
+    // Of what was flown before the last outcome nothing can come any more.
+    let mut is_past = true;
     for (at, entry) in &log.entries {
         match entry {
             Entry::Mission(mission) => plan.clone_from(&mission.name),
-            Entry::Tick(tick) if is_in_the_air(tick) => {
-                let flight = flight.get_or_insert_with(|| RecordedFlight::new(&plan, *at));
-                flight.extend(*at, tick);
+            Entry::Tick(tick) => {
+                // A drone whose outcome is known before it is down lands for the same flight, and so does one that an old
+                // order lifts again.
+                is_past |= !matches!(tick.phase.as_str(), "landing" | "standby");
+                if !is_in_the_air(tick) {
+                    continue;
+                }
+                let last = flights.last_mut().filter(|_| !is_past && flight.is_none());
+                let new = || RecordedFlight::new(&plan, *at);
+                last.unwrap_or_else(|| flight.get_or_insert_with(new)).extend(*at, tick);
             }
             Entry::Outcome { warns, text } => {
                 let mut flight = flight.take().unwrap_or_else(|| RecordedFlight::new(&plan, *at));
                 flight.outcome = Some((*warns, text.clone()));
                 flight.ended = Some(*at);
                 flights.push(flight);
+                is_past = false;
             }
             _ => {}
         }
@@ -51,7 +61,9 @@ pub(crate) fn flights(log: &Log) -> Vec<RecordedFlight> {
     flights
 }
 
-fn is_in_the_air(tick: &Tick) -> bool {
+/// Whether a flight of ours goes on in a tick: the one place that says so of recordings. It has ended when the drone is on the
+/// ground, or when its motors are off: then the vehicle no longer flies or lands.
+pub(crate) fn is_in_the_air(tick: &Tick) -> bool {
     matches!(tick.phase.as_str(), "flying" | "landing") && !tick.agent.on_ground
 }
 

@@ -142,6 +142,49 @@ fn each_flight_of_a_run_has_its_page() {
     assert!(reports.html(2, |_| String::new()).is_err());
 }
 
+/// A flight that ends in the air is one, and it has not landed.
+#[test]
+fn a_flight_that_ends_before_the_drone_is_down_is_one_flight() {
+    let emergency = log(SQUARE, "+8 propeller\n");
+    assert!(emergency.outcome().is_some_and(|(_, text)| text.contains("emergency")));
+    // A drone that is not heard has its outcome before it is down, and one with an emergency had in recordings of before.
+    let mut lost = log(SQUARE, "");
+    let (down, (_, outcome)) = {
+        let is_outcome = |(_, entry): &(Duration, Entry)| matches!(entry, Entry::Outcome { .. });
+        let index = lost.entries.iter().position(is_outcome).unwrap();
+        (lost.entries[index].0, lost.entries.remove(index))
+    };
+    let middle = down.checked_sub(Duration::from_secs(4)).unwrap();
+    let index = lost.entries.partition_point(|(at, _)| *at < middle);
+    lost.entries.insert(index, (middle, outcome));
+    for (_, entry) in &mut lost.entries[index..] {
+        if let Entry::Tick(tick) = entry
+            && tick.phase == "flying"
+        {
+            (tick.phase, tick.step) = ("landing".to_owned(), None);
+        }
+    }
+    for log in [&emergency, &lost] {
+        let reports = Reports::new(log, &[]);
+        assert_eq!(reports.count(), 1);
+        let page = reports.html(0, |_| String::new()).unwrap();
+        let last = log.ticks().last().unwrap().0;
+        assert_eq!(
+            drawn(&page)["end"].as_f64(),
+            Some(last.as_secs_f64()),
+            "the way down is its own"
+        );
+    }
+    let page = drawn(&report::html(&emergency, &[]).unwrap());
+    let texts = |list: &str, text: &str| -> Vec<String> {
+        let list = page[list].as_array().unwrap();
+        list.iter().map(|one| one[text].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(texts("bands", "label").last().unwrap(), "emergency");
+    assert!(!texts("bands", "label").contains(&"landing".to_owned()), "nothing was landed");
+    assert!(!texts("events", "text").contains(&"landed".to_owned()), "it fell");
+}
+
 /// Ten faults, and what the report says of each: its cause, not its consequence.
 #[test]
 fn the_cause_of_a_fault_is_named() {

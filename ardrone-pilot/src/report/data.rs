@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use ardrone_link::navdata::DroneState;
 use autopilot::agent::plan_text;
 use diagnostic::{printable, printable_lines};
 use serde::Serialize;
@@ -11,6 +12,7 @@ use super::events::{Event, events};
 use super::rows::{Row, rows};
 use super::series::Scales;
 use super::spans::{Strip, beliefs, states};
+use crate::flights::is_in_the_air;
 use crate::recording::{Log, Tags, Tick};
 use crate::settings::Settings;
 
@@ -67,7 +69,7 @@ pub(super) enum BandKind {
     Ground,
     /// A step of the plan; even and odd ones have different colours.
     Step(usize),
-    /// In the air without a step: paused, manual control, or landing early.
+    /// In the air without a step: paused, manual control, landing early, or falling.
     Other,
 }
 
@@ -111,23 +113,25 @@ impl<'a> Flight<'a> {
             rows,
         };
         for index in 0..flight.rows.len() {
-            let Row { at_s, tick, .. } = flight.rows[index];
+            let row = flight.rows[index];
+            let Row { at_s, tick, .. } = row;
             let until_s = flight.rows.get(index + 1).map_or(at_s, |next| next.at_s);
             while let Some((_, mission)) = missions.next_if(|(at, _)| at.as_secs_f64() <= at_s) {
                 steps = mission.steps.iter().map(|step| label(step)).collect();
             }
-            flight.extend_band(at_s, until_s, tick, &steps);
-            flight.extend_decision(at_s, until_s, tick, &steps);
+            flight.extend_band(&row, until_s, &steps);
+            flight.extend_decision(&row, until_s, &steps);
             flight.extend_plans(tick, &log.agent);
         }
         Some(flight)
     }
 
-    fn extend_band(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+    fn extend_band(&mut self, row: &Row<'_>, until_s: f64, steps: &[String]) {
+        let Row { at_s, tick, .. } = *row;
         let (label, kind) = match tick.step {
             Some(step) => (step_text(steps, step), BandKind::Step(step)),
-            None if tick.agent.on_ground => (label(&tick.phase), BandKind::Ground),
-            None => (label(&tick.phase), BandKind::Other),
+            None if tick.agent.on_ground => (phase(row), BandKind::Ground),
+            None => (phase(row), BandKind::Other),
         };
         match self.bands.last_mut() {
             Some(band) if band.kind == kind && band.label == label => band.to_s = until_s,
@@ -135,12 +139,13 @@ impl<'a> Flight<'a> {
         }
     }
 
-    fn extend_decision(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+    fn extend_decision(&mut self, row: &Row<'_>, until_s: f64, steps: &[String]) {
+        let Row { at_s, tick, .. } = *row;
         let Tick { agent, veto, .. } = tick;
         let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
         let veto = veto.iter().map(|veto| format!("safety monitor: {}", label(veto)));
         let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
-        let step = tick.step.map_or_else(|| label(&tick.phase), |step| step_text(steps, step));
+        let step = tick.step.map_or_else(|| phase(row), |step| step_text(steps, step));
         let decision = Decision {
             from_s: at_s,
             to_s: until_s,
@@ -173,7 +178,7 @@ impl<'a> Flight<'a> {
 
     /// Duration in the air, in seconds.
     pub(super) fn flown_s(&self) -> f64 {
-        let mut airborne = self.ticks().filter(|(_, tick)| !tick.agent.on_ground);
+        let mut airborne = self.ticks().filter(|(_, tick)| is_in_the_air(tick));
         let first = airborne.next().map(|(at_s, _)| at_s);
         let last = airborne.next_back().map(|(at_s, _)| at_s);
         first.zip(last).map_or(0.0, |(first, last)| last - first)
@@ -233,6 +238,15 @@ impl Decision {
 fn steps(plan: &str) -> Vec<String> {
     let (plan, _) = autopilot::plan::Plan::review(plan, &autopilot::plan::FlightLimits::NONE);
     plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| label(&step.text)).collect())
+}
+
+/// What the vehicle was doing. A drone with its motors cut neither stands by nor lands.
+fn phase(row: &Row<'_>) -> String {
+    let state = row.state.unwrap_or_default();
+    if state.contains(DroneState::EMERGENCY) {
+        return "emergency".to_owned();
+    }
+    label(&row.tick.phase)
 }
 
 /// Shortens a text to one line.

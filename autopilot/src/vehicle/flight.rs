@@ -33,7 +33,7 @@ pub(super) struct Flight {
     /// Since when it does not sink although it is landed by our orders, and whether that was for too long.
     pub(super) stays_up: StaysUp,
     pub(super) ignores_descent: bool,
-    /// Start of the fault that the drone currently reports, and of its emergency state.
+    /// Start of the fault that the drone currently reports, and of its emergency state: its motors are cut.
     pub(super) fault: Since,
     pub(super) emergency: Since,
     /// Since when it is on the ground again without an order to land.

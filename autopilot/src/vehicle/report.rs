@@ -42,19 +42,20 @@ pub struct FlightReport {
     pub waypoints: Vec<Waypoint>,
     /// When the take-off was ordered.
     pub took_off_at: Option<Duration>,
-    /// When the drone reported that it has landed.
-    pub landed_at: Option<Duration>,
+    /// When the drone was on the ground again, or had cut its motors in the air; `None` while it flies, and if that was never
+    /// heard.
+    pub ended_at: Option<Duration>,
 }
 
 impl FlightReport {
-    /// From the take-off order to the ground; `None` before that.
+    /// From the take-off order to the end; `None` before that.
     pub fn flight_time(&self) -> Option<Duration> {
-        self.flight_time_at(self.landed_at?)
+        self.flight_time_at(self.ended_at?)
     }
 
-    /// From the take-off order until now, or to the ground; `None` before the take-off has ended.
+    /// From the take-off order until now, or to the end; `None` before the take-off has ended.
     pub fn flight_time_at(&self, now: Duration) -> Option<Duration> {
-        self.landed_at.unwrap_or(now).checked_sub(self.took_off_at?)
+        self.ended_at.unwrap_or(now).checked_sub(self.took_off_at?)
     }
 
     /// Distance from the last target at the end of its stay.
@@ -84,7 +85,7 @@ mod tests {
         let report = FlightReport {
             waypoints: vec![reached(target), reached(near)],
             took_off_at: Some(Duration::from_secs(5)),
-            landed_at: Some(Duration::from_secs(65)),
+            ended_at: Some(Duration::from_secs(65)),
             ..empty
         };
         assert_eq!(report.flight_time(), Some(Duration::from_mins(1)));

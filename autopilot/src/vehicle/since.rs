@@ -10,6 +10,11 @@ impl Since {
     /// Takes in whether it is so now. Returns whether it has been for this time.
     pub(super) fn lasts(&mut self, now: Duration, is_so: bool, time: Duration) -> bool {
         self.0 = is_so.then(|| self.0.unwrap_or(now));
+        self.has_lasted(now, time)
+    }
+
+    /// Whether it has been so for this time, by what was taken in last.
+    pub(super) fn has_lasted(&self, now: Duration, time: Duration) -> bool {
         self.0.is_some_and(|since| now.saturating_sub(since) >= time)
     }
 }

@@ -1,6 +1,7 @@
 mod bench;
 mod by_hand;
 mod endings;
+mod flight_time;
 mod orders;
 mod phases;
 mod sightings;

@@ -344,9 +344,7 @@ impl Vehicle {
                 self.flight.report_mut().waypoints.push(waypoint);
             }
             AgentOrder::FindTag => self.mission.stopped_at(&pose),
-            AgentOrder::Land | AgentOrder::LandOnTag => {
-                self.flight.report_mut().landed_at = Some(now);
-            }
+            AgentOrder::Land | AgentOrder::LandOnTag => {}
         }
         self.events.push_back(FlightEvent::StepDone { step: active.due.step });
     }

@@ -25,14 +25,21 @@ pub(super) const OURS: Duration = Duration::from_secs(2);
 impl Vehicle {
     /// Advances the state and detects the conditions that end a flight.
     pub(super) fn watch(&mut self, now: Duration) {
-        if self.has_lasting_emergency(now) {
+        let emergency = self.drone_state().contains(DroneState::EMERGENCY);
+        let emergency = self.flight.emergency.lasts(now, emergency, FAULT_TIME);
+        self.watch_flight_time(now);
+        if emergency && self.life.is_in_flight() {
+            // What it was doing must not go on once the emergency is cleared.
+            if self.life.flying().is_some() {
+                self.agent_lands();
+            }
             self.end(now, Outcome::Emergency);
         }
         match &self.life {
             Life::Preparing { stage, departure } => {
                 self.watch_preparation(now, *stage, *departure);
             }
-            Life::Standby { since, has_flown } if !self.on_ground() => {
+            Life::Standby { since, has_flown } if !self.is_down(now) => {
                 self.has_risen(*has_flown && now.saturating_sub(*since) < OURS, now);
             }
             Life::Standby { .. } => {}
@@ -68,7 +75,7 @@ impl Vehicle {
                 }
             }
             // Another pilot has taken off with the drone while it was being prepared.
-            _ if !takes_over && !self.on_ground() => {
+            _ if !takes_over && !self.is_down(now) => {
                 if departure.is_some() {
                     self.refuse(now, vec![NotReady::NotLanded.to_string()]);
                 } else {
@@ -153,11 +160,41 @@ impl Vehicle {
         fault.filter(|_| lasts)
     }
 
-    /// Whether the drone has cut its motors in a flight, for [`FAULT_TIME`].
-    fn has_lasting_emergency(&mut self, now: Duration) -> bool {
-        let emergency =
-            self.life.is_in_flight() && self.drone_state().contains(DroneState::EMERGENCY);
-        self.flight.emergency.lasts(now, emergency, FAULT_TIME)
+    /// Whether the drone has said for [`FAULT_TIME`] that it has cut its motors, and does not fly.
+    fn has_cut(&self, now: Duration) -> bool {
+        self.flight.emergency.has_lasted(now, FAULT_TIME) && self.says_on_ground()
+    }
+
+    /// Whether the drone does not fly, by what was heard last: it is on the ground, or its motors are off.
+    fn is_down(&self, now: Duration) -> bool {
+        self.on_ground() || self.has_cut(now)
+    }
+
+    /// Whether there is nothing left of the flight: whatever ends with it asks here.
+    fn is_over(&self, now: Duration) -> bool {
+        // A take-off ordered just before a landing may not have taken effect in what was heard last.
+        let heard_later = match &self.life {
+            Life::Landing { since, .. } => {
+                self.packet_at.is_some_and(|at| at >= *since + ON_ITS_WAY)
+            }
+            _ => true,
+        };
+        // A restarted drone sends its state before it sends flight data.
+        let is_known = self.session.is_alive() && self.demo().is_some();
+        is_known && (self.has_cut(now) || self.on_ground() && heard_later)
+    }
+
+    /// The flight's time stops once the flight is over, and goes on if the mission takes off again.
+    fn watch_flight_time(&mut self, now: Duration) {
+        if !self.life.is_in_flight() || self.flight.report().took_off_at.is_none() {
+            return;
+        }
+        let ended_at = match self.flight.report().ended_at {
+            None if self.is_over(now) => Some(now),
+            Some(_) if !self.is_down(now) => None,
+            _ => return,
+        };
+        self.flight.report_mut().ended_at = ended_at;
     }
 
     /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.
@@ -235,16 +272,9 @@ impl Vehicle {
     fn watch_landing(&mut self, now: Duration, since: Duration) {
         let elapsed = now.saturating_sub(since);
         let blind = !self.session.is_alive();
-        // A take-off ordered just before the landing may not have taken effect in what was heard last.
-        let heard_later = self.packet_at.is_some_and(|at| at >= since + ON_ITS_WAY);
-        let landed = !blind && self.on_ground() && heard_later;
-        // A restarted drone sends its state before it sends flight data.
-        let known = self.demo().is_some();
-        if landed && known {
-            self.flight.report_mut().landed_at = Some(now);
-        } else if self.flight.outcome.is_some()
-            || !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT)
-        {
+        let landed = self.is_over(now);
+        let awaited = !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT);
+        if !landed && (self.flight.outcome.is_some() || awaited) {
             return;
         }
         let outcome = match &self.life {
@@ -311,14 +341,14 @@ impl Vehicle {
             self.flight.outcome = Some(outcome);
             self.pending.outcome = true;
         }
-        let is_down = self.session.is_alive() && self.on_ground() && self.demo().is_some();
-        let is_ready = is_down && self.session.is_ready();
+        let is_over = self.is_over(now);
+        let is_ready = is_over && self.session.is_ready();
         let standby = |has_flown| Life::Standby { since: now, has_flown };
         let next = match self.life {
             Life::Preparing { stage: Preparation::Trimming(_), .. } if is_ready => standby(false),
             Life::Preparing { stage, .. } => Life::Preparing { stage, departure: None },
             Life::Flying(_) | Life::Landing { .. } if is_ready => standby(true),
-            Life::Flying(_) | Life::Landing { .. } if is_down => {
+            Life::Flying(_) | Life::Landing { .. } if is_over => {
                 let stage = Preparation::Configuring { since: now };
                 Life::Preparing { stage, departure: None }
             }

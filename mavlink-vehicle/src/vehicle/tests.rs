@@ -1,5 +1,6 @@
 //! The vehicle as its clients see it.
 
+mod emergency;
 mod qgroundcontrol;
 
 use autopilot::plan::Command;
@@ -511,18 +512,6 @@ fn a_take_off_that_waits_is_given_up_by_what_is_ordered_after_it() {
     bench.pass(Duration::from_millis(40));
     bench.accepts(400, first(1.0));
     assert_eq!(bench.ordered(), ["take"]);
-}
-
-#[test]
-fn a_drone_in_its_emergency_state_is_not_armed() {
-    let mut bench = Bench::new(Config::default());
-    bench.status.emergency = true;
-    bench.pass(Duration::from_millis(20));
-    // Its reasons not to take off come later.
-    bench.refuses(400, first(1.0));
-    bench.status.emergency = false;
-    bench.pass(Duration::from_millis(20));
-    bench.accepts(400, first(1.0));
 }
 
 #[test]

@@ -292,8 +292,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the flight ends before the drone is down",
         WATCH,
-        "let landed = !blind && self.on_ground() && heard_later;",
-        "let landed = !blind;",
+        "let landed = self.is_over(now);",
+        "let landed = self.session.is_alive();",
     ),
     // Streams of orders.
     mutant(

@@ -77,7 +77,7 @@ fn a_landing_is_over_once_the_drone_has_had_time_to_rise() {
     bench.until(SECOND, |bench| !bench.outcomes.is_empty());
     assert_eq!(bench.outcomes, [Outcome::Interrupted]);
     assert!(bench.now >= began + ON_ITS_WAY && bench.now <= began + ON_ITS_WAY + TICK);
-    assert_eq!(bench.vehicle.report().landed_at, Some(bench.now));
+    assert_eq!(bench.vehicle.report().ended_at, Some(bench.now));
     let landings =
         bench.events.iter().filter(|event| matches!(event, FlightEvent::LandingOrdered(_)));
     assert_eq!(landings.count(), 1);
@@ -363,7 +363,7 @@ fn a_drone_that_is_lost_on_the_ground_before_it_rose_is_landed_in_silence() {
     bench.until(10 * SECOND, |bench| !bench.outcomes.is_empty());
     assert!(bench.now >= since + BLIND_LANDING_TIME);
     assert_eq!(bench.outcomes, [Outcome::LinkLost]);
-    assert_eq!(bench.vehicle.report().landed_at, None);
+    assert_eq!(bench.vehicle.report().ended_at, None);
     assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
 }
 
