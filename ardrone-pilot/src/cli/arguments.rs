@@ -37,7 +37,7 @@ Keys, in a terminal:
     q         land and quit, as Ctrl-C
     w a s d   fly forward, left, back, right, as long as pressed
     arrows    climb, sink, turn
-    e e       cut the motors: the drone falls
+    e Enter   cut the motors: the drone falls
     :         type an order, with history and completion; :help lists them";
 
 /// Fly an AR.Drone 2.0: along a plan, or by orders.

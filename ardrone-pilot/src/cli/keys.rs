@@ -25,12 +25,14 @@ use crate::typed::{self, TypedError};
 
 /// Summary of the keys.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
-    wasd and arrows fly by hand, e twice cuts the motors, : types an order (`:help`)";
+    wasd and arrows fly by hand, e and then Enter cuts the motors, : types an order (`:help`)";
 
 /// Stick fraction of one key. Terminals repeat a held key, but do not report its release.
 const STICK: f64 = 0.4;
-/// The second `e` must follow within this time.
-const CUT_AGAIN: Duration = Duration::from_secs(2);
+/// Enter must follow `e` within this time. Another `e` would not do: a terminal repeats a held key like a pressed one.
+const CUT_WITHIN: Duration = Duration::from_secs(2);
+/// A held `e` is asked about once in this time.
+const ASKED_EVERY: Duration = Duration::from_secs(1);
 /// Interval at which the reader checks whether to end.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -40,8 +42,8 @@ enum Action {
     Order(OperatorOrder),
     /// Same as Ctrl-C.
     Stop,
-    /// The first `e`: the operator must confirm.
-    AskAgain,
+    /// `e`: the operator must confirm.
+    Confirm,
     /// Opens the prompt.
     Type,
 }
@@ -49,13 +51,16 @@ enum Action {
 /// Maps keys to actions.
 #[derive(Debug, Default)]
 struct Keymap {
-    cut_asked: Option<Duration>,
+    /// Time of the `e` that Enter would confirm.
+    armed: Option<Duration>,
+    /// When the operator was last asked to.
+    asked: Option<Duration>,
 }
 
 impl Keymap {
     /// The action of a key pressed at `now`.
     fn action(&mut self, now: Duration, key: KeyCode) -> Option<Action> {
-        let asked = self.cut_asked.take();
+        let (armed, asked) = (self.armed.take(), self.asked.take());
         let steer = |demand| Some(Action::Order(OperatorOrder::Steer(demand)));
         let rest = Sticks::default();
         match key {
@@ -73,14 +78,24 @@ impl Keymap {
             KeyCode::Left => steer(Sticks { yaw: -STICK, ..rest }),
             KeyCode::Right => steer(Sticks { yaw: STICK, ..rest }),
             KeyCode::Char('e') => {
-                if asked.is_some_and(|asked| now.saturating_sub(asked) < CUT_AGAIN) {
-                    return Some(Action::Order(OperatorOrder::Cut));
+                self.armed = Some(now);
+                self.asked = asked.filter(|asked| now.saturating_sub(*asked) < ASKED_EVERY);
+                if self.asked.is_some() {
+                    return None;
                 }
-                self.cut_asked = Some(now);
-                Some(Action::AskAgain)
+                self.asked = Some(now);
+                Some(Action::Confirm)
             }
+            KeyCode::Enter => armed
+                .filter(|armed| now.saturating_sub(*armed) < CUT_WITHIN)
+                .map(|_| Action::Order(OperatorOrder::Cut)),
             _ => None,
         }
+    }
+
+    /// A key that has no action was pressed.
+    fn other_key(&mut self) {
+        *self = Self::default();
     }
 }
 
@@ -156,7 +171,12 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
         // One wake-up can bring several keys.
         while let Ok(true) = poll(Duration::ZERO) {
             let Ok(event) = read() else { return };
-            let Some(key) = pressed(&event) else { continue };
+            let Some(key) = pressed(&event) else {
+                if event.is_key_press() {
+                    keymap.other_key();
+                }
+                continue;
+            };
             // Any key closes the answer that is shown, and does what it does besides.
             _ = answers.take_answer();
             if prompt.is_open() {
@@ -191,8 +211,10 @@ fn act(controls: &Controls, action: Action) {
         Action::Order(order) => controls.ask(Operator::TERMINAL, order),
         Action::Stop if controls.quit() => Ok(()),
         Action::Stop => Err(Refused::Left),
-        Action::AskAgain => {
-            tracing::warn!("press e again within 2 s to cut the motors: the drone will fall");
+        Action::Confirm => {
+            tracing::warn!(
+                "press Enter within 2 s to cut the motors: the drone will fall; any other key calls it off"
+            );
             Ok(())
         }
         Action::Type => Ok(()),
@@ -267,17 +289,38 @@ mod tests {
         assert_eq!(action(key('x')), None);
     }
 
+    const CUT: Option<Action> = Some(Action::Order(OperatorOrder::Cut));
+
+    /// A terminal repeats a key that is held: after a moment, and then about thirty times a second.
     #[test]
-    fn one_e_cuts_nothing() {
-        let cut = Some(Action::Order(OperatorOrder::Cut));
+    fn a_held_e_cuts_nothing() {
         let mut keymap = Keymap::default();
-        assert_eq!(keymap.action(Duration::ZERO, key('e')), Some(Action::AskAgain));
-        assert_eq!(keymap.action(1900 * MS, key('e')), cut);
-        // Too late, or with another key in between.
-        assert_eq!(keymap.action(2000 * MS, key('e')), Some(Action::AskAgain));
-        assert_eq!(keymap.action(4100 * MS, key('e')), Some(Action::AskAgain));
-        keymap.action(4200 * MS, key('w'));
-        assert_eq!(keymap.action(4300 * MS, key('e')), Some(Action::AskAgain));
+        assert_eq!(keymap.action(Duration::ZERO, key('e')), Some(Action::Confirm));
+        let held = (400..5000).step_by(30).map(|ms| keymap.action(ms * MS, key('e')));
+        let held: Vec<Action> = held.flatten().collect();
+        // It is asked about again, but not thirty times a second.
+        assert_eq!(held, [const { Action::Confirm }; 4]);
+        assert_eq!(keymap.action(5100 * MS, KeyCode::Enter), CUT);
+    }
+
+    #[test]
+    fn e_and_enter_cut_within_two_seconds_without_another_key_in_between() {
+        let mut keymap = Keymap::default();
+        let mut action = |ms: u32, code| keymap.action(ms * MS, code);
+        assert_eq!(action(0, KeyCode::Enter), None);
+        assert_eq!(action(0, key('e')), Some(Action::Confirm));
+        assert_eq!(action(1900, KeyCode::Enter), CUT);
+        assert_eq!(action(1950, KeyCode::Enter), None, "once");
+        assert_eq!(action(2000, key('e')), Some(Action::Confirm));
+        assert_eq!(action(4100, KeyCode::Enter), None, "too late");
+        for other in [key('w'), key('x'), KeyCode::Esc] {
+            assert_eq!(action(5000, key('e')), Some(Action::Confirm));
+            _ = action(5100, other);
+            assert_eq!(action(5200, KeyCode::Enter), None, "{other:?}");
+        }
+        assert_eq!(keymap.action(6000 * MS, key('e')), Some(Action::Confirm));
+        keymap.other_key();
+        assert_eq!(keymap.action(6100 * MS, KeyCode::Enter), None, "with Ctrl or Alt");
     }
 
     #[test]
