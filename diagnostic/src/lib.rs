@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 mod diagnostics;
+mod figures;
 mod printable;
 
 use std::fmt;
@@ -25,6 +26,7 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 pub use diagnostics::{Diagnostics, Located, SourceText};
+pub use figures::{Figures, beyond};
 pub use printable::{is_printable, printable, printable_lines};
 
 /// A byte range of a source text.

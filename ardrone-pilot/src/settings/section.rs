@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use autopilot::vehicle::NavdataRate;
+use diagnostic::{Figures, beyond};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
@@ -281,7 +282,10 @@ impl Numbers for Degrees {
 
 /// The reason why a number is refused, if it is.
 pub(super) fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String> {
-    let (from, to) = (range.start(), range.end());
+    let (from, to) = (Figures(*range.start()), Figures(*range.end()));
     // NaN is out of range too.
-    (!range.contains(&value)).then(|| format!("{name} is {value}: it must lie in {from} to {to}"))
+    (!range.contains(&value)).then(|| {
+        let value = beyond(value, range);
+        format!("{name} is {value}: it must lie in {from} to {to}")
+    })
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use diagnostic::Figures;
 use nalgebra::Vector2;
 
 use super::polygon::{BorderError, Polygon, Wall};
@@ -95,11 +96,11 @@ impl Border {
     pub fn how_far(&self, place_m: Vector2<f64>) -> String {
         match &self.0 {
             Kind::Circle { radius_m } => {
-                let away_m = place_m.x.hypot(place_m.y);
+                let (away_m, radius_m) = (Figures(place_m.x.hypot(place_m.y)), Figures(*radius_m));
                 format!("{away_m:.2} m from the start, beyond the fence of {radius_m} m")
             }
             Kind::Polygon(polygon) => {
-                format!("{:.2} m outside the fence", polygon.outside_m(place_m))
+                format!("{:.2} m outside the fence", Figures(polygon.outside_m(place_m)))
             }
         }
     }
@@ -249,7 +250,7 @@ impl fmt::Debug for Border {
 impl fmt::Display for Border {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.shape() {
-            Shape::Circle { radius_m } => write!(f, "{radius_m} m around the start"),
+            Shape::Circle { radius_m } => write!(f, "{} m around the start", Figures(radius_m)),
             Shape::Polygon(corners_m) => write!(f, "a polygon of {} corners", corners_m.len()),
         }
     }

@@ -1,6 +1,6 @@
 //! Checks of a plan that was parsed: the order of its commands, and targets inside the fence.
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::{Diagnostic, Figures, Span};
 use kinematics::Pose;
 
 use super::Command;
@@ -97,9 +97,9 @@ impl Check<'_> {
         let height_m = target.z_m;
         let (low, high) = (self.limits.floor_m, self.limits.ceiling_m);
         let limit = if height_m < low - FlightLimits::TOLERANCE_M {
-            format!("below the lowest of {low} m")
+            format!("below the lowest of {} m", Figures(low))
         } else if height_m > high + FlightLimits::TOLERANCE_M {
-            format!("above the ceiling of {high} m")
+            format!("above the ceiling of {} m", Figures(high))
         } else {
             return;
         };
@@ -112,7 +112,7 @@ impl Check<'_> {
         };
         self.diagnostics.push(
             Diagnostic::error(
-                format!("target {height_m:.2} m above the floor, {limit}"),
+                format!("target {:.2} m above the floor, {limit}", Figures(height_m)),
                 span.clone(),
             )
             .help(origin),

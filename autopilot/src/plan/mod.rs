@@ -27,6 +27,7 @@ use kinematics::Pose;
 
 pub use crate::fence::{Border, BorderError, FlightLimits, MAX_CORNERS, Shape, ZOrigin};
 pub use commands::Commands;
+pub use diagnostic::Figures;
 pub(crate) use dry_run::DryRun;
 pub(crate) use expectation::expected_time;
 pub use expectation::{Expectation, battery_percent, expectations};

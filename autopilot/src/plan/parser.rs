@@ -1,6 +1,6 @@
 //! Parses the lines of a plan.
 
-use diagnostic::{Diagnostic, Span, closest};
+use diagnostic::{Diagnostic, Figures, Span, beyond, closest};
 use estimator::SurveyedTag;
 
 use super::language::{Declaration, LANGUAGE, Meaning, Number};
@@ -169,6 +169,8 @@ pub(super) fn check(value: f64, number: &Number, span: &Span) -> Result<(), Diag
     if (low..=high).contains(&value) {
         return Ok(());
     }
-    Err(Diagnostic::error(format!("{value} is out of range"), span.clone())
+    let shown = beyond(value, &(low..=high));
+    let (low, high) = (Figures(low), Figures(high));
+    Err(Diagnostic::error(format!("{shown} is out of range"), span.clone())
         .help(format!("expected a number from {low} to {high}")))
 }

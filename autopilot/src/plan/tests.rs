@@ -25,6 +25,17 @@ fn all_commands_and_comments_are_read() {
     assert_eq!(parsed[4], Command::SetReferenceHere);
 }
 
+/// In 309 digits nobody finds the reason.
+#[test]
+fn a_huge_number_is_refused_in_a_few_digits() {
+    let error = error("takeoff\ngoto 1e308 0 0 0\nland");
+    assert!(error.contains("error: 1e308 is out of range"), "{error}");
+    let border = FlightLimits::default().border;
+    let far = border.how_far([2.5e7, 0.0].into());
+    assert_eq!(far, "2.5e7 m from the start, beyond the fence of 10 m");
+    assert!(border.how_far([10.4, 0.0].into()).starts_with("10.40 m from"));
+}
+
 #[test]
 fn each_command_is_declared_with_a_line_that_has_it() {
     for declared in LANGUAGE.iter().filter(|declared| !declared.example.is_empty()) {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::{Diagnostic, Figures, Span};
 use kinematics::{Pose, wrap_deg};
 
 use super::expectation::Expectations;
@@ -66,7 +66,7 @@ impl Review<'_> {
                 );
             }
             Command::SetStayTime { time_s } if time_s > LONG_STAY_S => self.warn(
-                format!("the drone stays for {time_s} s at each target"),
+                format!("the drone stays for {} s at each target", Figures(time_s)),
                 span,
                 "its place is known by navdata alone, and known worse the longer it hovers",
             ),
@@ -84,7 +84,10 @@ impl Review<'_> {
         let reach_m = self.expectations.settings().reach_distance_m;
         if leg_m > 0.0 && leg_m <= reach_m && !turns {
             self.warn(
-                format!("the target is {leg_m:.2} m away, and counts as reached from {reach_m} m"),
+                format!(
+                    "the target is {leg_m:.2} m away, and counts as reached from {} m",
+                    Figures(reach_m)
+                ),
                 span,
                 "the drone will hardly move: make `setInitialReachDist` smaller",
             );

@@ -3,7 +3,7 @@
 //! Yaws are degrees clockwise from north, except in the frames 20 and 21, where they count from the heading at
 //! the start, and in the local take-off and landing, where the dialect has radians.
 
-use autopilot::plan::{Command, FlightLimits};
+use autopilot::plan::{Command, Figures, FlightLimits};
 use kinematics::{Pose, wrap_deg};
 
 use super::program::{Step, TAKE_OFF, Translated};
@@ -138,7 +138,7 @@ impl At<'_> {
     fn choice(self, number: u8, default: f64, choices: &[f64]) -> Result<f64, Problem> {
         let value = self.param(number).unwrap_or(default);
         let known = choices.contains(&value);
-        let wrong = || format!("parameter {number} is {value}, not one of {choices:?}");
+        let wrong = || format!("parameter {number} is {}, not one of {choices:?}", Figures(value));
         if known { Ok(value) } else { Err(self.problem(result_of(number), wrong())) }
     }
 
@@ -148,7 +148,7 @@ impl At<'_> {
             Some(stay_s) if (0.0..=LONGEST_STAY_S).contains(&stay_s) => Ok(stay_s),
             Some(stay_s) => Err(self.problem(
                 result::INVALID_PARAM1,
-                format!("a stay of {stay_s} s is not between 0 and {LONGEST_STAY_S}"),
+                format!("a stay of {} s is not between 0 and {LONGEST_STAY_S}", Figures(stay_s)),
             )),
         }
     }
@@ -159,7 +159,7 @@ impl At<'_> {
             Some(reach_m) if reach_m > 0.0 => Ok(reach_m.clamp(0.1, 1.0)),
             Some(reach_m) => Err(self.problem(
                 result::INVALID_PARAM2,
-                format!("an acceptance radius of {reach_m} m is negative"),
+                format!("an acceptance radius of {} m is negative", Figures(reach_m)),
             )),
         }
     }
@@ -347,7 +347,7 @@ impl Translator {
                 limit_m_s
             }
             Some(speed_m_s) => {
-                let reason = format!("a speed of {speed_m_s} m/s is negative");
+                let reason = format!("a speed of {} m/s is negative", Figures(speed_m_s));
                 return Err(at.problem(result::INVALID_PARAM2, reason));
             }
         };
@@ -379,6 +379,7 @@ impl Translator {
     /// Notes that a quantity was moved into its limits, if it was.
     fn note_limit(&mut self, at: At<'_>, what: &str, unit: &str, wanted: f64, flown: f64) {
         if (wanted - flown).abs() > 0.01 {
+            let (flown, wanted) = (Figures(flown), Figures(wanted));
             let note = format!("{}: {what} {flown:.2} {unit}, not {wanted:.2}", at.named());
             self.limited.push(note);
         }
@@ -482,7 +483,10 @@ impl Translator {
             return Ok(self.clamped(z_m));
         }
         let reason = format!(
-            "{z_m:.2} m above the floor at the start, not between {floor_m} and {ceiling_m} m"
+            "{:.2} m above the floor at the start, not between {} and {} m",
+            Figures(z_m),
+            Figures(floor_m),
+            Figures(ceiling_m)
         );
         Err(at.problem(result::INVALID_PARAM7, reason))
     }

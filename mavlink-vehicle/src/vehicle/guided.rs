@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use autopilot::plan::Figures;
 use autopilot::vehicle::{OperatorOrder, Place};
 
 use super::arming::Then;
@@ -67,7 +68,8 @@ impl MavlinkVehicle {
             self.say(info, format_args!("take-off to {height_m:.2} m"));
             return Some(height_m);
         }
-        let outside = format_args!("{wanted_m:.2} m, which is not between {low_m} and {high_m} m");
+        let [wanted, low, high] = [wanted_m, low_m, high_m].map(Figures);
+        let outside = format_args!("{wanted:.2} m, which is not between {low} and {high} m");
         match own_m {
             Some(own_m) => self.warn(format_args!("take-off to {own_m:.2} m, not {outside}")),
             None => self.warn(format_args!("take-off to the hover, not {outside}")),
@@ -103,8 +105,9 @@ impl MavlinkVehicle {
             return self.denied(format_args!("go-to refused: outside the fence, {fence}"));
         }
         if let Some(z_m) = place.z_m.filter(|z_m| !(lowest_m..=highest_m).contains(z_m)) {
+            let [z, low, high] = [z_m, low_m, high_m].map(Figures);
             return self.denied(format_args!(
-                "go-to refused: {z_m:.2} m above the start, not between {low_m} and {high_m} m"
+                "go-to refused: {z:.2} m above the start, not between {low} and {high} m"
             ));
         }
         if !self.is_airborne() {

@@ -214,7 +214,7 @@ fn a_loiter_stays_at_its_place_or_here() {
     let above = Item { z: 2.0, ..here };
     assert_flown(&[loiter, above], &["takeoff", "goto 1 0 1 0", "goto 1 0 2 0"]);
     let long = Item { param1: 1e9, ..loiter };
-    assert_problem(&[long], result::INVALID_PARAM1, "1000000000 s is not between 0 and 600");
+    assert_problem(&[long], result::INVALID_PARAM1, "1e9 s is not between 0 and 600");
 }
 
 #[test]
