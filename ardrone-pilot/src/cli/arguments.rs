@@ -164,10 +164,10 @@ pub(super) struct Fly {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
-    /// Hold the place by black and white roundels on the floor: find them and map them
+    /// Hold the place by tags (black and white roundels) on the floor: find them and map them
     #[arg(long)]
     pub(super) tags: bool,
-    /// A roundel whose place is known, right and forward of the start, and which way it points; it may be given
+    /// A tag whose place is known, right and forward of the start, and which way it points; it may be given
     /// several times
     #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
     pub(super) tag: Vec<GivenTag>,

@@ -126,7 +126,8 @@ pub(super) fn readiness(reasons: &[NotReady]) -> Option<String> {
 }
 
 fn status_line(at: Duration, status: &Status) -> String {
-    let mut parts = vec![format!("{} {:<11}", time(at), status.phase)];
+    let phase = if status.emergency { "EMERGENCY" } else { status.phase.name() };
+    let mut parts = vec![format!("{} {phase:<11}", time(at))];
     if let Some(step) = status.step {
         parts.push(format!("{}/{}", step + 1, status.steps));
     }
@@ -142,7 +143,7 @@ fn status_line(at: Duration, status: &Status) -> String {
     }
     if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
         parts.push(format!(
-            " to {:+.2} {:+.2} {:.2} m, {distance_m:.2} m away",
+            " to {:+.2} {:+.2} {:.2} m, {distance_m:.2} m off",
             target.x_m, target.y_m, target.z_m
         ));
     }
@@ -228,7 +229,10 @@ mod tests {
         };
         assert_eq!(
             status_line(Duration::from_millis(12_340), &status),
-            "  12.3 s flying      3/6  at +0.12 +0.98 0.85 m -1°  to +1.00 +1.00 0.85 m, 0.88 m away  battery 87 %"
+            "  12.3 s flying      3/6  at +0.12 +0.98 0.85 m -1°  to +1.00 +1.00 0.85 m, 0.88 m off  battery 87 %"
         );
+        // With its motors cut it does not stand by.
+        let fallen = Status { phase: Phase::Standby, emergency: true, ..status };
+        assert!(status_line(Duration::ZERO, &fallen).starts_with("   0.0 s EMERGENCY  "));
     }
 }

@@ -71,7 +71,7 @@ impl Screen {
         Some(screen)
     }
 
-    /// Adds a line to the message list.
+    /// Adds a line to the list of events.
     pub(super) fn print_line(&mut self, line: &str) {
         self.view.print_line(line);
         self.draw();
@@ -201,7 +201,7 @@ mod tests {
         let mut view = View::new(&FlightLimits::default());
         let error = typed::parse("gotto 1 1", &FlightLimits::default()).unwrap_err();
         view.answer = Some(format!(":gotto 1 1\n{error}"));
-        view.warn("press e again within 2 s to cut the motors: the drone will fall");
+        view.warn("press Enter within 2 s to cut the motors: the drone will fall");
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();
         insta::assert_snapshot!(terminal.backend());
@@ -220,8 +220,8 @@ mod tests {
 
     #[test]
     fn colours_are_taken_away() {
-        let line = "\x1b[33m WARN\x1b[0m press \x1b[1me\x1b[0m again";
-        assert_eq!(without_colours(line), "WARN press e again");
+        let line = "\x1b[33m WARN\x1b[0m press \x1b[1mEnter\x1b[0m now";
+        assert_eq!(without_colours(line), "WARN press Enter now");
         assert_eq!(without_colours("plain"), "plain");
         assert_eq!(without_colours("\x1b"), "");
     }

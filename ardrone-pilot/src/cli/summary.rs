@@ -55,7 +55,7 @@ impl fmt::Display for Summary<'_> {
         }
         if let Some(waypoint) = report.waypoints.last() {
             let (deviation_m, rests_on) = (waypoint.horizontal_deviation_m, waypoint.rests_on);
-            writeln!(f, "  place known to  {deviation_m:.2} m (standard deviation), {rests_on}")?;
+            writeln!(f, "  uncertainty     {deviation_m:.2} m (standard deviation), {rests_on}")?;
         }
         let largest = |value: fn(&TrueWaypoint) -> f64| {
             self.truths.iter().map(value).fold(None, |largest: Option<f64>, value| {

@@ -1,6 +1,4 @@
-//! Texts of several lines on the screen: messages, and answers to what was typed.
-
-use std::collections::VecDeque;
+//! Texts of several lines on the screen: what happened, and answers to what was typed.
 
 use diagnostic::printable_lines;
 use ratatui::Frame;
@@ -13,20 +11,22 @@ use super::WARNING;
 /// How far the continuation of a line is indented.
 const INDENT: usize = 2;
 
-/// The newest messages, each on as many lines as it needs, and marked if it warns.
-pub(super) fn draw_messages(
+/// The newest of these texts, each on as many lines as it needs, and marked if it warns. The newest comes first, and is drawn
+/// last.
+pub(super) fn draw_newest<T: AsRef<str>>(
     frame: &mut Frame<'_>,
     area: Rect,
-    messages: &VecDeque<(String, bool)>,
+    title: &str,
+    newest_first: impl Iterator<Item = (T, bool)>,
 ) {
-    let block = Block::bordered().title("messages");
+    let block = Block::bordered().title(title);
     let inside = block.inner(area);
     let (columns, rows) = (usize::from(inside.width), usize::from(inside.height));
     let mut shown: Vec<ListItem<'_>> = Vec::new();
-    for (text, warns) in messages.iter().rev() {
-        let style = if *warns { Style::new().fg(WARNING) } else { Style::new() };
-        let lines = wrapped(text, columns);
-        // Half of a message would be taken for the whole; the newest is shown as far as it goes.
+    for (text, warns) in newest_first {
+        let style = if warns { Style::new().fg(WARNING) } else { Style::new() };
+        let lines = wrapped(text.as_ref(), columns);
+        // Half of a text would be taken for the whole; the newest is shown as far as it goes.
         if !shown.is_empty() && shown.len() + lines.len() > rows {
             break;
         }
@@ -48,6 +48,20 @@ pub(super) fn draw_answer(frame: &mut Frame<'_>, area: Rect, answer: Option<&str
     let block = block.title("answer (any key closes it)");
     frame.render_widget(Clear, pane);
     frame.render_widget(Paragraph::new(lines.join("\n")).block(block), pane);
+}
+
+/// Texts in lines of at most so many columns.
+pub(super) fn wrapped_all(texts: &[String], columns: usize) -> Vec<String> {
+    texts.iter().flat_map(|text| wrapped(text, columns)).collect()
+}
+
+/// The beginning of a text in one line of at most so many columns: whole words, with a mark if there are more.
+pub(super) fn clipped(text: &str, columns: usize) -> String {
+    if text.chars().count() <= columns {
+        return text.to_owned();
+    }
+    let lines = wrapped(text, columns.saturating_sub(2));
+    lines.first().map_or_else(String::new, |line| format!("{line} …"))
 }
 
 /// A text in lines of at most so many columns, broken between words where that is possible.
@@ -83,5 +97,7 @@ mod tests {
         assert_eq!(wrapped("aaaaaaaaaa", 8), ["aaaaaaaa", "  aa"]);
         assert_eq!(wrapped("a b", 0), ["a b"]);
         assert_eq!(wrapped("\n\nb", 8), ["", "", "b"]);
+        assert_eq!(clipped("a bb ccc", 8), "a bb ccc");
+        assert_eq!(clipped("a bb ccc dddd", 8), "a bb …");
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, NotReady, Phase, RestsOn, Status, Telemetry};
+use autopilot::vehicle::{FlightEvent, ManualControl, NotReady, Phase, RestsOn, Status, Telemetry};
 use diagnostic::{printable, printable_lines};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -20,12 +20,18 @@ use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
 
-/// Capacity of the lists of messages and decisions.
+/// Capacity of the lists of events and decisions.
 const REMEMBERED: usize = 50;
 
-/// Lines of the gauges, and the fewest lines of the mission.
-const GAUGES: u16 = 8;
+/// Fewest lines of the mission.
 const LEAST_STEPS: u16 = 3;
+/// Fewest columns beside the map: a target with its distance fits.
+const LEAST_SIDE: u16 = 40;
+/// Lines of a pane's border, and of the height in front of the lines about the drone.
+const BORDER: usize = 2;
+const HEIGHT: usize = 1;
+/// Fewest of those lines, so that nothing below them moves when one comes.
+const LEAST_GAUGES: usize = 5;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
@@ -47,8 +53,8 @@ pub(super) struct View {
     flown_path: FlownPath,
     /// Time and text of each change in the agent's decisions.
     decisions: VecDeque<(Duration, String)>,
-    /// Messages, and whether each is a warning.
-    messages: VecDeque<(String, bool)>,
+    /// What happened, and whether each is a warning.
+    events: VecDeque<(String, bool)>,
 }
 
 impl View {
@@ -64,22 +70,22 @@ impl View {
             ticks: TickHealth::default(),
             flown_path: FlownPath::default(),
             decisions: VecDeque::new(),
-            messages: VecDeque::new(),
+            events: VecDeque::new(),
         }
     }
 
     pub(super) fn print_line(&mut self, line: &str) {
-        remember(&mut self.messages, (printable(line).into_owned(), false));
+        remember(&mut self.events, (printable(line).into_owned(), false));
     }
 
     /// As [`View::print_line`], but marked as a warning, and printed again when the screen closes.
     pub(super) fn warn(&mut self, line: &str) {
-        remember(&mut self.messages, (printable_lines(line).into_owned(), true));
+        remember(&mut self.events, (printable_lines(line).into_owned(), true));
     }
 
     /// All warnings.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let warnings = self.messages.iter().filter(|(_, warns)| *warns);
+        let warnings = self.events.iter().filter(|(_, warns)| *warns);
         warnings.map(|(text, _)| text.clone()).collect()
     }
 
@@ -88,7 +94,7 @@ impl View {
             Content::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Content::Trouble(at, trouble) => {
                 let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
-                remember(&mut self.messages, (line, true));
+                remember(&mut self.events, (line, true));
             }
             Content::Telemetry(at, telemetry, ticks) => {
                 self.ticks = *ticks;
@@ -114,7 +120,7 @@ impl View {
                 let (done, steps) = (report.steps_done, report.steps);
                 let text = format!("{outcome}; {done} of {steps} steps");
                 let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
-                remember(&mut self.messages, (line, *outcome != Outcome::Completed));
+                remember(&mut self.events, (line, *outcome != Outcome::Completed));
             }
             Telemetry::Event(event) => {
                 let text = match event {
@@ -125,7 +131,7 @@ impl View {
                     other => other.to_string(),
                 };
                 let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
-                remember(&mut self.messages, (line, event.warns()));
+                remember(&mut self.events, (line, event.warns()));
             }
             Telemetry::Status(status) => self.look(at, status),
         }
@@ -170,35 +176,29 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
         Constraint::Length(1),
     ])
     .areas(frame.area());
+    let columns = (body.width * 9 / 20).max(LEAST_SIDE.min(body.width / 2));
     let [map, side] =
-        Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).areas(body);
-    let room = usize::from(side.height.saturating_sub(GAUGES + LEAST_STEPS));
-    let table = tags::lines(view.status.as_ref(), room);
-    let [gauges, table, steps] = Layout::vertical([
-        Constraint::Length(GAUGES),
-        Constraint::Length(u16::try_from(table).unwrap_or_default()),
-        Constraint::Min(LEAST_STEPS),
-    ])
-    .areas(side);
-    let [decisions, messages] =
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(columns)]).areas(body);
+    let about =
+        texts::wrapped_all(&about_the_drone(view), usize::from(columns).saturating_sub(BORDER));
+    let most = usize::from(side.height.saturating_sub(LEAST_STEPS));
+    let gauges = (about.len().max(LEAST_GAUGES) + HEIGHT + BORDER).min(most);
+    let table = tags::lines(view.status.as_ref(), most - gauges);
+    let length = |lines| Constraint::Length(u16::try_from(lines).unwrap_or_default());
+    let [gauges, table, steps] =
+        Layout::vertical([length(gauges), length(table), Constraint::Min(LEAST_STEPS)]).areas(side);
+    let [decisions, events] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
     frame.render_widget(headline(view), head);
     draw_map(frame, map, view);
-    draw_gauges(frame, gauges, view);
+    draw_gauges(frame, gauges, view, &about);
     tags::draw(frame, table, view.status.as_ref());
     draw_steps(frame, steps, view);
-    let shown =
-        |lines: usize, area: Rect| lines.saturating_sub(usize::from(area.height.saturating_sub(2)));
-    let skipped = shown(view.decisions.len(), decisions);
-    let lines = view.decisions.iter().skip(skipped);
-    let lines: Vec<ListItem<'_>> = lines
-        .map(|(at, text)| ListItem::new(format!("{:6.1} s {text}", at.as_secs_f64())))
-        .collect();
-    frame.render_widget(
-        List::new(lines).block(Block::bordered().title("decisions: plans and their lines")),
-        decisions,
-    );
-    texts::draw_messages(frame, messages, &view.messages);
+    let decided = view.decisions.iter().rev();
+    let decided = decided.map(|(at, text)| (format!("{:6.1} s {text}", at.as_secs_f64()), false));
+    texts::draw_newest(frame, decisions, "decisions: plans and their lines", decided);
+    let told = view.events.iter().rev().map(|(text, warns)| (text.as_str(), *warns));
+    texts::draw_newest(frame, events, "events", told);
     frame.render_widget(foot_line(view), keys);
     texts::draw_answer(frame, body, view.answer.as_deref());
 }
@@ -208,7 +208,7 @@ fn foot_line(view: &View) -> Paragraph<'_> {
     match &view.prompt {
         Some(prompt) => Paragraph::new(prompt.as_str()),
         None => Paragraph::new(
-            ": order  space hold  r resume  l land  q quit  wasd+arrows fly  e e cut",
+            ": order  space hold  r resume  l land  q quit  wasd+arrows fly  e Enter cut",
         )
         .style(Style::new().add_modifier(Modifier::DIM)),
     }
@@ -223,8 +223,12 @@ fn headline(view: &View) -> Paragraph<'_> {
         Style::new().add_modifier(Modifier::REVERSED),
     )];
     if let Some(step) = status.step {
-        let waits = if status.mission_waits { ", waits" } else { "" };
-        parts.push(Span::raw(format!("  step {}/{}{waits}", step + 1, status.steps)));
+        let by_hand = match (status.mission_waits, status.manual) {
+            (false, _) => "",
+            (true, None | Some(ManualControl::Hold)) => ", holding",
+            (true, Some(_)) => ", by hand",
+        };
+        parts.push(Span::raw(format!("  step {}/{}{by_hand}", step + 1, status.steps)));
     }
     let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
     let low = status.battery_percent.is_some_and(|percent| percent <= 20);
@@ -236,8 +240,7 @@ fn headline(view: &View) -> Paragraph<'_> {
             (text, Style::new().fg(WARNING))
         }
         Some(age) => {
-            let text =
-                format!("  navdata {:.0} a second, {} ms old", status.navdata_hz, age.as_millis());
+            let text = format!("  navdata {:.0}/s, {} ms old", status.navdata_hz, age.as_millis());
             (text, Style::new())
         }
         None => ("  no navdata yet".to_owned(), Style::new().fg(WARNING)),
@@ -297,8 +300,8 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_widget(canvas, area);
 }
 
-/// Height, attitude, position and target.
-fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
+/// Height, and what else is said of the drone.
+fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View, about: &[String]) {
     let block = Block::bordered().title("drone");
     let inside = block.inner(area);
     frame.render_widget(block, area);
@@ -315,6 +318,12 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
         }),
         height,
     );
+    frame.render_widget(Paragraph::new(about.join("\n")), text);
+}
+
+/// Whether it could fly, attitude, position and target.
+fn about_the_drone(view: &View) -> Vec<String> {
+    let Some(status) = &view.status else { return Vec::new() };
     let mut lines = vec![
         status.pose.map_or("at      -".to_owned(), |pose| {
             let yaw_deg = pose.yaw_deg.round() + 0.0;
@@ -327,7 +336,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("known   to {:.2} m, {}", status.horizontal_deviation_m, known_by(status)),
+        format!("uncertainty {:.2} m, {}", status.horizontal_deviation_m, known_by(status)),
         ticks(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
@@ -340,18 +349,18 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     }
     if let Some(gps) = status.gps {
         lines.push(format!(
-            "gps     {:.5} {:.5}, to {:.0} m",
+            "gps     {:.5} {:.5}, ±{:.0} m",
             gps.latitude_deg, gps.longitude_deg, gps.horizontal_error_m
         ));
     }
-    frame.render_widget(Paragraph::new(lines.join("\n")), text);
+    lines
 }
 
 /// What this rests on, in the room that there is.
 fn known_by(status: &Status) -> String {
     match (status.contradicted_by, status.rests_on) {
         (Some(by), _) => format!("CONTRADICTED: {}", by.name()),
-        (None, RestsOn::Velocity) => "by its speed alone".to_owned(),
+        (None, RestsOn::Velocity) => "by velocity alone".to_owned(),
         (None, RestsOn::Tag { seen_ago }) => format!("tag {:.1} s ago", seen_ago.as_secs_f64()),
     }
 }
@@ -364,7 +373,8 @@ fn ticks(health: &TickHealth) -> String {
 /// The plan with its current step.
 fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let current = view.status.and_then(|status| status.step);
-    let rows = usize::from(area.height.saturating_sub(2));
+    let (columns, rows) =
+        (area.width.saturating_sub(2).into(), area.height.saturating_sub(2).into());
     let first = current.unwrap_or(0).saturating_sub(rows / 2);
     let first = first.min(view.steps.len().saturating_sub(rows));
     let steps = view.steps.iter().enumerate().skip(first);
@@ -375,7 +385,8 @@ fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
             } else {
                 (" ", Style::new())
             };
-            ListItem::new(format!("{mark} {:>3} {text}", index + 1)).style(style)
+            let text = texts::clipped(&format!("{mark} {:>3} {text}", index + 1), columns);
+            ListItem::new(text).style(style)
         })
         .collect();
     let title = if view.steps.is_empty() { "no mission: type : and a command" } else { "mission" };
@@ -383,109 +394,4 @@ fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
 }
 
 #[cfg(test)]
-mod tests {
-    use kinematics::Pose;
-    use ratatui::Terminal;
-    use ratatui::backend::TestBackend;
-
-    use super::*;
-    use autopilot::agent::ChosenPlans;
-    use autopilot::plan::Plan;
-    use autopilot::vehicle::{KnownTag, TagStatus, Trust, VehicleName};
-    use kinematics::Airframe;
-
-    /// A drone on its way to a target, which it has flown this share of.
-    fn status(share: f64) -> Status {
-        let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 };
-        Status {
-            phase: Phase::Flying,
-            step: Some(2),
-            steps: 4,
-            mission_waits: false,
-            landing: None,
-            emergency: false,
-            airborne: true,
-            flight_time: None,
-            camera: None,
-            altitude_m: None,
-            manual: None,
-            controls: None,
-            pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),
-            velocity_m_s: Some([0.5, 0.0, 0.0]),
-            target: Some(target),
-            distance_m: Some(1.0 - share),
-            battery_percent: Some(87),
-            battery_v: Some(11.9),
-            turn_rate_deg_s: Some(0.0),
-            horizontal_deviation_m: 0.12,
-            rests_on: RestsOn::Velocity,
-            contradicted_by: None,
-            vertical_deviation_m: 0.02,
-            tags: None,
-            gps: None,
-            trust: Trust::Sound,
-            airframe: Airframe::default(),
-            navdata_age: Some(Duration::from_millis(40)),
-            navdata_hz: 15.0,
-            attitude_deg: Some([2.5, -1.0]),
-            plans: ChosenPlans::default(),
-            command: Some("Goto"),
-        }
-    }
-
-    fn message(at: Duration, telemetry: Telemetry, ticks: TickHealth) -> Message {
-        let content = Content::Telemetry(at, telemetry, ticks);
-        Message { vehicle: VehicleName::default(), content }
-    }
-
-    #[test]
-    fn the_screen_shows_the_flight() {
-        let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
-        let mut view = View::new(&FlightLimits::default());
-        let steps = plan.steps().to_vec();
-        let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
-        let mut tell = |at, telemetry| view.take_in(&message(at, telemetry, ticks));
-        tell(Duration::ZERO, Telemetry::Mission { name: String::new(), id: None, steps });
-        for tick in 0..40_u32 {
-            let status = status(f64::from(tick) / 40.0);
-            tell(Duration::from_millis(u64::from(tick) * 90), Telemetry::Status(status));
-        }
-        let started = FlightEvent::StepStarted { step: 2 };
-        tell(Duration::from_secs(3), Telemetry::Event(started));
-        tell(Duration::from_secs(4), Telemetry::Event(FlightEvent::LinkLost));
-        let mut terminal = Terminal::new(TestBackend::new(90, 26)).unwrap();
-        terminal.draw(|frame| draw(frame, &view)).unwrap();
-        insta::assert_snapshot!(terminal.backend());
-        // Any size must be drawn without a panic.
-        for (columns, rows) in [(1, 1), (20, 5), (300, 80)] {
-            let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-            terminal.draw(|frame| draw(frame, &view)).unwrap();
-        }
-    }
-
-    #[test]
-    fn tags_have_a_table_and_marks_on_eighty_columns() {
-        let tag = |id: u32, x_m, seen_s: Option<u64>| KnownTag {
-            id,
-            place_m: [x_m, 0.4].into(),
-            heading_deg: seen_s.map(|_| 120.0),
-            deviation_m: 0.2,
-            surveyed: id == 1,
-            seen_ago: seen_s.map(Duration::from_secs),
-        };
-        let known = [tag(1, -2.0, None), tag(2, 0.3, Some(40)), tag(3, 0.9, Some(0))];
-        let tags = TagStatus {
-            known: known.into_iter().collect(),
-            seen_ago: Some(Duration::from_millis(300)),
-            ..TagStatus::default()
-        };
-        let mut view = View::new(&FlightLimits::default());
-        let rests_on = RestsOn::of(Some(&tags));
-        let status = Status { tags: Some(tags), rests_on, ..status(0.5) };
-        let (at, status) = (Duration::from_secs(3), Telemetry::Status(status));
-        view.take_in(&message(at, status, TickHealth::default()));
-        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        terminal.draw(|frame| draw(frame, &view)).unwrap();
-        insta::assert_snapshot!(terminal.backend());
-    }
-}
+mod tests;
