@@ -19,12 +19,14 @@ mod bindings {
 }
 
 mod activity;
+mod said;
 mod source;
 mod tags;
 
 pub use activity::Activity;
 use activity::Pursuit;
 pub use bindings::{Agent, PLANS, STATE_BYTES};
+pub use said::{Danger, Report};
 pub use source::{SOURCE, plan_text};
 pub use tags::TagPercepts;
 use tags::place_to_look_from;
@@ -147,80 +149,6 @@ impl AgentCommand {
             Self::GoTo(_) => "Goto",
             Self::Sticks => "Sticks",
             Self::Land => "Land",
-        }
-    }
-}
-
-/// Reason for which the agent lands, or warns of a landing, or what it has to say of tags.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Danger {
-    /// The battery is nearly empty: a warning.
-    BatteryLow,
-    /// The battery is too low to fly on.
-    BatteryEmpty,
-    /// No usable navdata.
-    Blind,
-    /// The position uncertainty is too large.
-    Lost,
-    /// The wind is stronger than the drone.
-    Wind,
-    /// A take-off, or an approach, exceeded its time limit.
-    NoProgress,
-    /// The place is doubtful, and a tag is looked for: not a danger by itself.
-    Searching,
-    /// There is no tag to be found.
-    NoTag,
-    /// The tag to land on is not seen any more.
-    TagLost,
-    /// The set-points that were followed have not come for too long.
-    SetpointsGone,
-    /// The ground station that has the controls is silent: a warning, in every step.
-    StationSilent,
-    /// It has been silent for too long.
-    StationGone,
-}
-
-impl Danger {
-    /// Its name in logs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::BatteryLow => "BatteryLow",
-            Self::BatteryEmpty => "BatteryEmpty",
-            Self::Blind => "Blind",
-            Self::Lost => "Lost",
-            Self::Wind => "Wind",
-            Self::NoProgress => "NoProgress",
-            Self::Searching => "Searching",
-            Self::NoTag => "NoTag",
-            Self::TagLost => "TagLost",
-            Self::SetpointsGone => "SetpointsGone",
-            Self::StationSilent => "StationSilent",
-            Self::StationGone => "StationGone",
-        }
-    }
-}
-
-/// How the agent's last order ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Report {
-    /// It was carried out.
-    Done,
-    /// It was not accepted.
-    Refused,
-    /// It was given up.
-    Failed,
-    /// It was set aside, and is to be given again when somebody resumes it.
-    Paused,
-}
-
-impl Report {
-    /// Its name in logs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Done => "Done",
-            Self::Refused => "Refused",
-            Self::Failed => "Failed",
-            Self::Paused => "Paused",
         }
     }
 }

@@ -9,6 +9,7 @@ mod carried;
 mod descent;
 mod stopping;
 
+use std::fmt;
 use std::time::Duration;
 
 use kinematics::{Pose, Sticks, world_from_body};
@@ -75,6 +76,19 @@ pub enum Veto {
 }
 
 impl Veto {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::StaleNavdata,
+        Self::Blind,
+        Self::Emergency,
+        Self::Landing,
+        Self::TargetOutside,
+        Self::WayOutside,
+        Self::NearFence,
+        Self::OutsideFence,
+        Self::CarriedOff,
+    ];
+
     /// Its name in logs.
     pub fn name(self) -> &'static str {
         match self {
@@ -93,6 +107,24 @@ impl Veto {
     /// Whether this veto ends in a landing.
     pub fn lands(self) -> bool {
         matches!(self, Self::Blind | Self::OutsideFence | Self::CarriedOff | Self::Landing)
+    }
+}
+
+impl fmt::Display for Veto {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::StaleNavdata => "no fresh navdata: hovering",
+            Self::Blind => "no navdata for too long: landing",
+            Self::Emergency => "emergency state: not flying",
+            Self::Landing => "the drone lands: letting it",
+            Self::TargetOutside => "target outside the fence: flying to its edge",
+            Self::WayOutside => {
+                "the straight way to the target leaves the fence: stopping before it"
+            }
+            Self::NearFence => "at the fence: stopping",
+            Self::OutsideFence => "outside the fence: flying back and landing",
+            Self::CarriedOff => "the wind is stronger than the drone can brake: landing",
+        })
     }
 }
 

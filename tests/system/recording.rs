@@ -349,7 +349,9 @@ fn a_report_answers_why() {
     let plan = "+!stay : target(X, Y, Z, Yaw) & stayingFor(Time)";
     let line = 1 + log.agent.lines().position(|line| line.starts_with(plan)).unwrap();
     assert!(page.contains(&format!("<pre>{line}: {}", plan.replace('&', "&amp;"))));
-    assert!(page.contains("last order: Done") && page.contains("plan flown to its end"));
+    assert!(
+        page.contains("the last order was carried out") && page.contains("plan flown to its end")
+    );
     let steps = flight.report.steps_done;
     assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
     log.entries.clear();
@@ -445,7 +447,7 @@ fn a_report_shows_what_went_wrong() {
     for part in [
         "landed by a failsafe: battery",
         "landing: battery",
-        "danger: BatteryEmpty",
+        "the agent says: the battery is too low to fly on",
         "@empty_battery",
     ] {
         assert!(page.contains(part), "{part}");

@@ -79,7 +79,7 @@ fn a_report_has_the_numbers_behind_its_verdict() {
     assert_eq!(names, ["velocity", "altitude", "heading", "attitude"]);
 }
 
-/// Whatever changed is an event: a hover that the agent orders without a message, too.
+/// Whatever changed is an event: a hover that the agent orders and nobody is told of, too.
 #[test]
 fn all_events_are_on_the_time_axis() {
     let orders = vec![
@@ -100,16 +100,16 @@ fn all_events_are_on_the_time_axis() {
         assert!(found, "{kind} {text} at {near_s} s: {events:?}");
     };
     has("order", "hold", 7.0);
-    has("message", "holding", 7.0);
+    has("event", "holding", 7.0);
     has("order", "resume", 9.0);
-    // What is not believed, and the hover that it leads to, of which no message tells.
+    // What is not believed, and the hover that it leads to, of which nobody is told.
     let at_s = |text: &str| {
         let event = events.iter().find(|event| event["text"].as_str().unwrap().starts_with(text));
         event.unwrap_or_else(|| panic!("{text}: {events:?}"))["at_s"].as_f64().unwrap()
     };
-    let (frozen_s, hover_s) = (at_s("velocity: frozen"), at_s("Hover (line "));
+    let (frozen_s, hover_s) = (at_s("velocity: frozen"), at_s("hover (line "));
     assert!(12.0 < frozen_s && frozen_s <= hover_s && hover_s < at_s("landing: the velocity"));
-    let landing = events.iter().find(|event| event["text"] == "control state: Landing");
+    let landing = events.iter().find(|event| event["text"] == "control state: landing");
     assert!(landing.is_some_and(|event| event["kind"] == "drone"));
 }
 

@@ -12,6 +12,7 @@ use super::events::{Event, events};
 use super::rows::{Row, rows};
 use super::series::Scales;
 use super::spans::{Strip, beliefs, states};
+use super::words::{self, spoken};
 use crate::flights::is_in_the_air;
 use crate::recording::{Log, Tags, Tick};
 use crate::settings::Settings;
@@ -142,17 +143,17 @@ impl<'a> Flight<'a> {
     fn extend_decision(&mut self, row: &Row<'_>, until_s: f64, steps: &[String]) {
         let Row { at_s, tick, .. } = *row;
         let Tick { agent, veto, .. } = tick;
-        let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
-        let veto = veto.iter().map(|veto| format!("safety monitor: {}", label(veto)));
+        let danger = agent.danger.iter().map(|danger| label(&words::danger(danger)));
+        let veto = veto.iter().map(|veto| label(&words::veto(veto)));
         let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
         let step = tick.step.map_or_else(|| phase(row), |step| step_text(steps, step));
         let decision = Decision {
             from_s: at_s,
             to_s: until_s,
             step,
-            command: label(&agent.command),
+            command: label(&spoken(&agent.command)),
             plans: plans.collect(),
-            said: agent.report.as_ref().map(|report| format!("last order: {}", label(report))),
+            said: agent.report.as_ref().map(|report| label(&words::last_order(report))),
             warnings: danger.chain(veto).collect(),
         };
         match self.decisions.last_mut() {

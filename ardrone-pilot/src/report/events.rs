@@ -1,4 +1,4 @@
-//! Everything that happened in a flight, in the order of time: messages, orders, decisions, what was believed, and what the
+//! Everything that happened in a flight, in the order of time: what was told, orders, decisions, what was believed, and what the
 //! drone said of itself.
 
 use std::time::Duration;
@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::rows::Row;
 use super::spans::{Level, Strip};
+use super::words::{self, spoken};
 use crate::recording::{Entry, Log};
 
 /// Most events of a page.
@@ -21,8 +22,8 @@ const REPEATED_WITHIN: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
-    /// A message to the operators.
-    Message,
+    /// What the operators were told.
+    Event,
     /// One that warns.
     Warning,
     /// An operator's order.
@@ -41,7 +42,7 @@ impl Kind {
     /// For people.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Message => "message",
+            Self::Event => "event",
             Self::Warning => "warning",
             Self::Order => "order",
             Self::Decision => "agent",
@@ -86,7 +87,7 @@ pub(super) fn events(
     let mut repeated: Option<(Duration, String)> = None;
     for (at, entry) in log.entries.iter().filter(|(at, _)| (from..=until).contains(at)) {
         let at_s = at.as_secs_f64();
-        let kind = |warns: bool| if warns { Kind::Warning } else { Kind::Message };
+        let kind = |warns: bool| if warns { Kind::Warning } else { Kind::Event };
         match entry {
             Entry::Event { warns, text } => events.push(Event::new(at_s, kind(*warns), text)),
             Entry::Outcome { warns, text } => {
@@ -126,20 +127,20 @@ fn decisions(events: &mut Vec<Event>, rows: &[Row<'_>]) {
         let agent = &row.tick.agent;
         if command.replace(agent.command.as_str()).is_some_and(|last| last != agent.command) {
             let because = agent.plans.first().map(|plan| format!(" (line {})", plan.line));
-            let text = format!("{}{}", agent.command, because.unwrap_or_default());
+            let text = format!("{}{}", spoken(&agent.command), because.unwrap_or_default());
             events.push(Event::new(row.at_s, Kind::Decision, &text));
         }
         if agent.danger != danger {
             danger.clone_from(&agent.danger);
             if let Some(danger) = &danger {
-                events.push(Event::new(row.at_s, Kind::Danger, &format!("danger: {danger}")));
+                events.push(Event::new(row.at_s, Kind::Danger, &words::danger(danger)));
             }
         }
         if row.tick.veto != veto {
             veto.clone_from(&row.tick.veto);
             let text = match &veto {
-                Some(veto) => format!("safety monitor: {veto}"),
-                None => "safety monitor: no longer".to_owned(),
+                Some(veto) => words::veto(veto),
+                None => words::no_veto().to_owned(),
             };
             events.push(Event::new(row.at_s, Kind::Danger, &text));
         }

@@ -10,6 +10,7 @@ use super::data::Flight;
 use super::rows::Row;
 use super::series::tilt_ordered;
 use super::spans::{Level, Span, set};
+use super::words;
 use crate::recording::DecodedNavdata;
 
 /// Navdata that are older are a gap, in seconds: several packets.
@@ -72,7 +73,7 @@ pub(super) fn findings(flight: &Flight<'_>) -> Vec<Finding> {
     });
     let doubt = |row: &Row<'_>| row.tick.estimate.map_or(0.0, |at| at.horizontal_deviation_m);
     found.peak(&air, doubt, DOUBTFUL_M, |most, until_s| {
-        format!("the place was known to more than {DOUBTFUL_M} m only: up to {most:.2} m, at {until_s:.2} s")
+        format!("the uncertainty of the place was above {DOUBTFUL_M} m: up to {most:.2} m, at {until_s:.2} s")
     });
     found.decided(flight);
     let mut all = found.all;
@@ -331,7 +332,7 @@ impl Findings {
         let mut told: Vec<&str> = Vec::new();
         for event in flight.events.iter().filter(|event| event.kind.warns()) {
             let text = event.text.as_str();
-            if !told.contains(&text) && !text.ends_with("no longer") && told.len() < 12 {
+            if !told.contains(&text) && text != words::no_veto() && told.len() < 12 {
                 told.push(text);
                 self.add(event.at_s, event.text.clone());
             }

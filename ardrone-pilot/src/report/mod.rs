@@ -8,6 +8,7 @@ mod pictures;
 mod rows;
 mod series;
 mod spans;
+mod words;
 
 use std::time::Duration;
 

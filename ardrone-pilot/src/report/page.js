@@ -346,7 +346,7 @@ function drawPlace() {
 // A tag that was not seen for this long is drawn faintly, in seconds.
 const STALE = 2;
 
-// The tags known at the cursor: roundels with their direction, number, and a circle of one standard deviation.
+// The tags known at the cursor, with their direction, number, and a circle of one standard deviation.
 function drawTags() {
   const text = document.getElementById("tagtext");
   if (!tags.length) return;
@@ -365,7 +365,7 @@ function drawTags() {
   const list = (then ? then.tags : []).map(({ id, x_m, y_m, heading_deg, deviation_m, surveyed, seen_s }) => {
     const turned = heading_deg === null ? "" : `, ${heading_deg.toFixed(0)}°`;
     const seen = seen_s === null ? "not seen" : `seen ${seen_s.toFixed(1)} s before`;
-    return `${id}${surveyed ? "*" : ""} at ${x_m.toFixed(2)} ${y_m.toFixed(2)} m, to ${deviation_m.toFixed(2)} m${turned}, ${seen}`;
+    return `${id}${surveyed ? "*" : ""} at ${x_m.toFixed(2)} ${y_m.toFixed(2)} m, uncertainty ${deviation_m.toFixed(2)} m${turned}, ${seen}`;
   });
   text.textContent = `Tags known at ${marked.toFixed(1)} s (* surveyed; circle: one standard deviation): ${list.join("; ") || "none"}.`;
 }

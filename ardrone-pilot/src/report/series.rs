@@ -103,7 +103,7 @@ static PLOTS: [Plot; 12] = [
         ],
     ),
     plot(
-        "Distance from the target (m), dashed: how well the place is known",
+        "Distance from the target (m), dashed: the uncertainty of the place",
         150,
         &[
             line("across", BLUE, |row, _| {
@@ -113,9 +113,7 @@ static PLOTS: [Plot; 12] = [
             line("up and down", GREEN, |row, _| {
                 Some((row.tick.target?.z_m - row.tick.estimate?.z_m).abs())
             }),
-            dashed("place known to", GREY, |row, _| {
-                Some(row.tick.estimate?.horizontal_deviation_m)
-            }),
+            dashed("uncertainty", GREY, |row, _| Some(row.tick.estimate?.horizontal_deviation_m)),
         ],
     ),
     plot(

@@ -5,6 +5,7 @@ use diagnostic::printable;
 use serde::Serialize;
 
 use super::rows::Row;
+use super::words::spoken;
 
 /// Most spans of a strip; a healthy flight has a few.
 const MOST_SPANS: usize = 1000;
@@ -113,7 +114,8 @@ pub(super) fn states(rows: &[Row<'_>]) -> Vec<Strip> {
     let mut control = Strip { name: "control state", spans: Vec::new() };
     let mut wrong = Strip { name: "reports", spans: Vec::new() };
     for row in rows {
-        let state = row.heard.and_then(|heard| heard.control_state.as_deref()).map(short);
+        let state = row.heard.and_then(|heard| heard.control_state.as_deref());
+        let state = state.map(|state| short(&spoken(state)));
         match &state {
             Some(state) => control.extend(row.at_s, Some((Level::Plain, state))),
             None => control.end(row.at_s),

@@ -129,7 +129,7 @@ impl Settings {
         toml::to_string(self)
     }
 
-    /// Uses roundels on the floor, and takes these for surveyed.
+    /// Uses tags on the floor, and takes these for surveyed.
     ///
     /// # Errors
     /// [`SettingsError::Values`] if they do not fit together, or with those of the settings.

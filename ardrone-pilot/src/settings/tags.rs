@@ -1,4 +1,4 @@
-//! `[tags]`: roundels on the floor that hold the place.
+//! `[tags]`: tags on the floor that hold the place.
 
 use std::str::FromStr;
 
@@ -10,7 +10,7 @@ use super::section::{Milliseconds, Pair, Section as _, Setting, section};
 
 section! {
     struct Tags("tags") of TagConfig {
-        /// Whether black and white roundels on the floor hold the place: the drone is asked to look for them. docs/position.md
+        /// Whether tags (black and white roundels) on the floor hold the place: the drone is asked to look for them. docs/position.md
         detect: bool = [default false],
         /// Tags whose place was measured, [right, forward] or [right, forward, heading] from where the drone starts, in metres
         /// and degrees clockwise. Others are found and mapped.

@@ -219,17 +219,7 @@ impl fmt::Display for FlightEvent {
             }
             Self::Resumed => f.write_str("mission resumed"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
-            Self::Veto(veto) => f.write_str(match veto {
-                Veto::StaleNavdata => "no fresh navdata: hovering",
-                Veto::Blind => "no navdata for too long: landing",
-                Veto::Emergency => "emergency state: not flying",
-                Veto::Landing => "the drone lands: letting it",
-                Veto::TargetOutside => "target outside the fence: flying to its edge",
-                Veto::WayOutside => "the straight way to the target leaves the fence: stopping before it",
-                Veto::NearFence => "at the fence: stopping",
-                Veto::OutsideFence => "outside the fence: flying back and landing",
-                Veto::CarriedOff => "the wind is stronger than the drone can brake: landing",
-            }),
+            Self::Veto(veto) => veto.fmt(f),
         }
     }
 }

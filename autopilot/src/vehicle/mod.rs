@@ -73,7 +73,7 @@ use crate::agent::{Danger, Report, distance};
 use crate::mission::Mission;
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, FlightLimits, Plan, Step, Target};
-use crate::safety::Veto;
+pub use crate::safety::Veto;
 
 /// Control period.
 pub const TICK: Duration = Duration::from_millis(30);

@@ -232,12 +232,12 @@ const map = (() => {
     }
   }
 
-  // "2, to 0.04 m, seen 0.1 s ago": the best of them.
+  // "2, the best with an uncertainty of 0.04 m, seen 0.1 s ago".
   function tagsText() {
     const seen = status.tags.seen_s === null ? "none seen yet" : `seen ${status.tags.seen_s.toFixed(1)} s ago`;
     if (!known().length) return seen;
     const best = Math.min(...known().map((tag) => tag.deviation_m));
-    return `${known().length}, to ${best.toFixed(2)} m, ${seen}`;
+    return `${known().length}, the best with an uncertainty of ${best.toFixed(2)} m, ${seen}`;
   }
 
   function drawGrid(wide, high, visible) {
@@ -249,7 +249,7 @@ const map = (() => {
     if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
     set($("grid").firstChild, { d: lines });
     set($("grid").lastChild, { d: `M0 ${low}V${top}M${left} 0H${right}` });
-    const tagged = status && status.tags ? "; roundels: tags with one standard deviation, * surveyed" : "";
+    const tagged = status && status.tags ? "; tags with one standard deviation, * surveyed" : "";
     const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
     const { width } = $("map").getBoundingClientRect();
     const pixels = (step * width) / (2 * wide);

@@ -287,7 +287,7 @@ function drawFacts() {
     $(id).classList.toggle("ill", ill);
   };
   const { pose, velocity_m_s: velocity, battery_percent: charge } = status;
-  put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? "mission paused" : status.phase);
+  put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? (status.manual && status.manual !== "hold" ? "by hand" : "holding") : status.phase);
   put("time", status.flight_time_s === null ? "–" : minutes(status.flight_time_s));
   put("step", status.step === null ? "–" : `${status.step + 1} of ${status.steps}`);
   const volts = status.battery_v ? `, ${status.battery_v.toFixed(1)} V` : "";
@@ -316,8 +316,8 @@ function drawDoing() {
   const step = status.step === null ? null : flight.steps[status.step];
   const following = status.step === null ? null : flight.steps[status.step + 1];
   let [now, next] = [status.phase, ""];
-  if (status.phase === "flying" && status.manual) [now, next] = [`by hand: ${status.manual}`, "the mission waits: Resume goes on with it"];
-  else if (status.phase === "flying" && status.mission_waits) [now, next] = ["holding", "the mission waits: Resume goes on with it"];
+  if (status.phase === "flying" && status.manual) [now, next] = [status.manual === "hold" ? "holding" : `by hand: ${status.manual}`, "the mission is paused: Resume goes on with it"];
+  else if (status.phase === "flying" && status.mission_waits) [now, next] = ["holding", "the mission is paused: Resume goes on with it"];
   else if (step && status.phase === "flying") {
     const far = status.distance_m === null ? "" : `, ${status.distance_m.toFixed(1)} m to go`;
     now = `step ${status.step + 1}: ${step.text}${far}`;
