@@ -74,6 +74,15 @@ fn a_report_has_the_numbers_behind_its_verdict() {
     let (low_v, high_v) = range(&drawn, "Battery (V)", "voltage");
     assert!(9.0 < low_v && low_v < high_v && high_v < 13.0, "{low_v} {high_v}");
     assert!(range(&drawn, "Battery (%)", "charge").1 > 80.0);
+    // It blows to the right, and the fence of the settings is there.
+    assert!(range(&drawn, "Wind", "to the right").1 > 20.0);
+    let towards_right = drawn["series"]["wind"][0].as_array().unwrap();
+    let most_m_s2 = towards_right.iter().filter_map(Value::as_f64).fold(0.0, f64::max);
+    assert!((0.3..5.0).contains(&most_m_s2), "{most_m_s2}");
+    assert_eq!(drawn["fence"]["text"], "10 m around the start");
+    let corners = drawn["fence"]["corners"].as_array().unwrap();
+    let away_m = |corner: &Value| corner[0].as_f64().unwrap().hypot(corner[1].as_f64().unwrap());
+    assert!(corners.len() > 8 && corners.iter().all(|corner| (away_m(corner) - 10.0).abs() < 0.1));
     let beliefs = drawn["beliefs"].as_array().unwrap();
     let names: Vec<&str> = beliefs.iter().map(|strip| strip["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["velocity", "altitude", "heading", "attitude"]);
@@ -193,7 +202,7 @@ fn the_cause_of_a_fault_is_named() {
         ("+6 lie altitude 0.8 for 30", &["the altitude in navdata jumped by +0.8"]),
         ("+6 ramp yaw 30 for 30", &["the heading in navdata"]),
         ("+7 outage down 2.5", &["no navdata arrived for up to 2."]),
-        ("+6 wind 5 3 gusts 2", &["wind, or a push like it"]),
+        ("+6 wind 5 3 gusts 2", &["wind, or a push like it from ", "left: up to "]),
         ("+8 motor 70 over 1", &["it sank", "too little thrust"]),
         ("+8 sag 60", &["the charge fell from"]),
         ("+9 restart", &["has restarted"]),
@@ -251,6 +260,15 @@ fn a_report_is_zoomed_moved_and_read_at_the_cursor() {
     );
     chromium.wait(&tab, "document.querySelector('#map .flown').getAttribute('d').length > 100");
     chromium.wait(&tab, "document.querySelector('#map .flown').getAttribute('d').length < document.querySelector('#map .way').getAttribute('d').length");
+    // The map has the fence, which is too large for this one, and the wind.
+    chromium.wait(&tab, "document.querySelector('#map .fence').getAttribute('d').length > 100");
+    chromium.wait(&tab, "document.querySelector('#map .fencetext').textContent === 'dashed: the fence, 10 m around the start, beyond this map'");
+    chromium
+        .evaluate(&tab, "series.wind[0].fill(-1.25); series.wind[1].fill(0.1); show(marked); true");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#map .wind text').textContent === 'wind from the right, 1.3 m/s²'",
+    );
     // All plots are zoomed and moved together, by the buttons, the wheel, the keyboard and a drag.
     let axes = "new Set([...document.querySelectorAll('#all .plot svg')].map((plot) => \
         [...plot.querySelectorAll('text')].filter((text) => / s$/.test(text.textContent)).map((text) => text.textContent).join())).size === 1";

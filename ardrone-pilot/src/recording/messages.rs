@@ -30,6 +30,10 @@ pub struct Tick {
     /// What is not believed of navdata: quantity, and how that shows. `None` in logs of older versions.
     #[serde(default)]
     pub disbelieved: Option<BTreeMap<String, String>>,
+    /// What lasts of the wind: how it accelerates the drone towards right and forward in the world. `None` in logs of older
+    /// versions.
+    #[serde(default)]
+    pub wind_m_s2: Option<[f64; 2]>,
     /// Timing of the tick.
     pub timing: Timing,
     /// Text of the datagram.
@@ -274,6 +278,7 @@ impl Tick {
             agent: Agent::new(decision),
             veto: decision.veto.map(|veto| veto.name().to_owned()),
             disbelieved: Some(disbelieved(decision)),
+            wind_m_s2: Some([decision.wind_m_s2.x, decision.wind_m_s2.y].map(short)),
             timing: Timing { late_ms: short(timing.late_ms), work_ms: short(timing.work_ms) },
             datagram: String::from_utf8_lossy(datagram).into_owned(),
         }

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
 use autopilot::agent::plan_text;
+use autopilot::plan::Border;
+use autopilot::vehicle::VehicleConfig;
 use diagnostic::{printable, printable_lines};
 use serde::Serialize;
 
@@ -33,6 +35,8 @@ pub(super) struct Flight<'a> {
     pub(super) rows: Vec<Row<'a>>,
     /// What their numbers refer to.
     pub(super) scales: Scales,
+    /// The fence, if the recorded settings can be read.
+    pub(super) fence: Option<Border>,
     /// What was believed of each quantity.
     pub(super) beliefs: Vec<Strip>,
     /// What the drone said of itself.
@@ -99,12 +103,16 @@ impl<'a> Flight<'a> {
         let mut missions = log.missions().peekable();
         let mut steps = steps(&log.plan);
         let (beliefs, states) = (beliefs(&rows), states(&rows));
+        // The settings of a log of another version may not be valid in this one.
+        let config = Settings::parse("pilot.toml", &log.settings).ok();
+        let config = config.map(|settings| settings.pilot_config(log.z_origin));
         let events = events(log, span, &rows, &beliefs, &states);
         let mut flight = Self {
             bands: Vec::new(),
             decisions: Vec::new(),
             plans: BTreeMap::new(),
-            scales: scales(log, &rows),
+            scales: scales(config.as_ref(), &rows),
+            fence: config.map(|config| config.limits.border),
             beliefs,
             states,
             events,
@@ -218,11 +226,9 @@ fn tags(log: &Log, (from, until): (Duration, Duration)) -> Vec<(f64, &Tags)> {
     tags().skip(skipped).step_by(every).collect()
 }
 
-/// What numbers refer to. The settings of a log of another version may not be valid in this one: then no tilt is known.
-fn scales(log: &Log, rows: &[Row<'_>]) -> Scales {
-    let settings = Settings::parse("pilot.toml", &log.settings).ok();
-    let tilt_rad =
-        settings.map(|settings| settings.pilot_config(log.z_origin).estimator.limits.tilt_rad);
+/// What numbers refer to. Without settings no tilt is known.
+fn scales(config: Option<&VehicleConfig>, rows: &[Row<'_>]) -> Scales {
+    let tilt_rad = config.map(|config| config.estimator.limits.tilt_rad);
     let north_deg =
         rows.iter().find_map(|row| Some(row.heard?.attitude_deg?[2] - row.tick.estimate?.yaw_deg));
     Scales { tilt_deg: tilt_rad.map(f64::to_degrees), north_deg }

@@ -10,7 +10,7 @@ use super::data::Flight;
 use super::rows::Row;
 use super::series::tilt_ordered;
 use super::spans::{Level, Span, set};
-use super::words;
+use super::{wind, words};
 use crate::recording::DecodedNavdata;
 
 /// Navdata that are older are a gap, in seconds: several packets.
@@ -63,7 +63,9 @@ pub(super) fn findings(flight: &Flight<'_>) -> Vec<Finding> {
     found.states(&air);
     found.charge(&flight.rows);
     found.peak(&air, |row| row.tick.agent.wind, WINDY, |most, until_s| {
-        format!("wind, or a push like it: up to {:.0} % of what full tilt holds against, at {until_s:.2} s", most * 100.0)
+        let then = air.iter().find(|row| row.at_s >= until_s).and_then(|row| row.tick.wind_m_s2);
+        let side = then.map_or_else(String::new, |towards| format!(" {}", wind::from(towards)));
+        format!("wind, or a push like it{side}: up to {:.0} % of what full tilt holds against, at {until_s:.2} s", most * 100.0)
     });
     found.tilt(flight, &air);
     found.thrust(&air);

@@ -8,6 +8,7 @@ mod pictures;
 mod rows;
 mod series;
 mod spans;
+mod wind;
 mod words;
 
 use std::time::Duration;

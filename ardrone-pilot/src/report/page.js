@@ -1,7 +1,7 @@
 "use strict";
 // Draws the plots over one time axis, which can be zoomed and moved, and shows the moment under the cursor everywhere: its
 // values, its place on the map, what the camera saw, and what the agent decided.
-const { decisions, plans, tags, series, bands, events, beliefs, states, late, begin, end } = JSON.parse(
+const { decisions, plans, tags, series, fence, bands, events, beliefs, states, late, begin, end } = JSON.parse(
   document.getElementById("decided").textContent,
 );
 const { times } = series;
@@ -282,7 +282,11 @@ function show(seconds) {
   rows.forEach((row) => row.classList.toggle("now", Number(row.dataset.index) === found));
 }
 
-// The map: the way, the part of it that is flown at the cursor, the drone, targets and tags.
+// A fence that is larger than the flight by this factor would leave no room for the flight.
+const MUCH_LARGER = 4;
+const CALM = 0.05; // less wind has no direction, in m/s²
+
+// The map: the way, the part of it that is flown at the cursor, the drone, targets, tags, the fence, and the wind at the cursor.
 const map = document.getElementById("map");
 const [right, forward, heading] = series.track;
 let scale = null;
@@ -294,7 +298,12 @@ function drawMap() {
   const seen = tags.flatMap((moment) => moment.tags);
   const all = (values, other, key) => [0, ...values.filter((value) => value !== null), ...other, ...seen.map((tag) => tag[key])];
   const extent = (list) => list.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0]);
-  const [across, along] = [extent(all(right, series.targets.map(([at]) => at), "x_m")), extent(all(forward, series.targets.map(([, at]) => at), "y_m"))];
+  let [across, along] = [extent(all(right, series.targets.map(([at]) => at), "x_m")), extent(all(forward, series.targets.map(([, at]) => at), "y_m"))];
+  const corners = fence ? fence.corners : [];
+  const [wide, deep] = [0, 1].map((axis) => extent(corners.map((corner) => corner[axis])));
+  const size = (...extents) => Math.max(...extents.map(([low, high]) => high - low));
+  const seesFence = size(wide, deep) <= MUCH_LARGER * Math.max(size(across, along), 0.5);
+  if (seesFence) [across, along] = [extent([...across, ...wide]), extent([...along, ...deep])];
   const metres = Math.max((across[1] - across[0]) / width, (along[1] - along[0]) / height, 1 / width) * 1.2;
   const middle = [(across[0] + across[1]) / 2, (along[0] + along[1]) / 2];
   const place = (px, py) => [width / 2 + (px - middle[0]) / metres, height / 2 - (py - middle[1]) / metres];
@@ -309,6 +318,11 @@ function drawMap() {
   for (const at of lines(middle[0], (metres * width) / 2)) svg("path", { class: "grid", d: `M${place(at, 0)[0]} 0V${height}` }, map);
   for (const at of lines(middle[1], (metres * height) / 2)) svg("path", { class: "grid", d: `M0 ${place(0, at)[1]}H${width}` }, map);
   svg("text", { x: 6, y: height - 6 }, map, `a square is ${step.toFixed(grid.digits)} m; forward is up`);
+  if (fence) {
+    const border = corners.map(([px, py]) => place(px, py).map((at) => at.toFixed(1)).join(" "));
+    svg("path", { class: "fence", d: `M${border.join("L")}Z` }, map);
+    svg("text", { x: 6, y: height - 20, class: "fencetext" }, map, `dashed: the fence, ${fence.text}${seesFence ? "" : ", beyond this map"}`);
+  }
   const [hx, hy] = place(0, 0);
   svg("path", { class: "home", d: `M${hx} ${hy - 6}L${hx + 6} ${hy + 5}H${hx - 6}Z` }, map);
   svg("path", { class: "way", d: trail(times.length - 1) }, map);
@@ -335,12 +349,26 @@ function drawPlace() {
   if (!scale) return;
   const index = indexAt(times, marked);
   map.querySelector(".flown").setAttribute("d", trail(index));
-  map.querySelectorAll(".tag, .drone").forEach((old) => old.remove());
+  map.querySelectorAll(".tag, .drone, .wind").forEach((old) => old.remove());
   drawTags();
+  drawWind(index);
   if (right[index] === null || forward[index] === null) return;
   const [px, py] = scale.place(right[index], forward[index]);
   const turn = `translate(${px} ${py}) rotate(${heading[index] ?? 0})`;
   svg("path", { class: "drone", d: "M0-11L8 8L0 4L-8 8Z", transform: turn }, map);
+}
+
+// An arrow with the wind, and the side from which it comes, in the frame of the plan.
+function drawWind(index) {
+  const [towardsRight, forwards] = series.wind.map((values) => values[index]);
+  if (towardsRight === null || forwards === null) return;
+  const strength = Math.hypot(towardsRight, forwards);
+  const group = svg("g", { class: "wind" }, map);
+  const bearing = (Math.atan2(towardsRight, forwards) * 180) / Math.PI;
+  const side = series.wind_from[(Math.round(bearing / 45) + 8) % 8];
+  const text = strength < CALM ? "no wind felt" : `wind ${side}, ${strength.toFixed(1)} m/s²`;
+  svg("text", { x: scale.width - 34, y: 20, "text-anchor": "end" }, group, text);
+  if (strength >= CALM) svg("path", { d: "M0 11V-11M-5-5L0-11L5-5", transform: `translate(${scale.width - 17} 16) rotate(${bearing})` }, group);
 }
 
 // A tag that was not seen for this long is drawn faintly, in seconds.

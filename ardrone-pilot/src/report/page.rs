@@ -70,7 +70,7 @@ pub(super) fn html(
         "<noscript><p>The plots and the map are drawn by a script.</p></noscript>\n\
          <div class=\"columns\">\n<div class=\"side\">\n\
          <section class=\"card mapcard\"><h2>Map</h2>\n<div class=\"map\"><svg id=\"map\" role=\"img\" \
-         aria-label=\"the way from above: the part flown at the cursor, the drone, targets and tags\"></svg></div>\n\
+         aria-label=\"the way from above: the part flown at the cursor, the drone, targets, tags, the fence, and the wind\"></svg></div>\n\
          {tag_text}</section>\n\
          <section class=\"card whycard\"><h2>At the cursor</h2>\n{picture}<div id=\"moment\"></div></section>\n\
          </div>\n<div id=\"plots\">\n<div id=\"axis\"><div class=\"plot\" id=\"overview\"></div>\n\
@@ -112,6 +112,10 @@ fn decided(flight: &Flight<'_>) -> serde_json::Value {
     json!({
         "begin": flight.begin_s,
         "end": flight.end_s,
+        "fence": flight.fence.as_ref().map(|border| json!({
+            "text": border.to_string(),
+            "corners": border.sides_m().map(|[corner, _]| corner).collect::<Vec<_>>(),
+        })),
         "series": Series::new(&flight.rows, &flight.scales),
         "bands": flight.bands,
         "beliefs": flight.beliefs,

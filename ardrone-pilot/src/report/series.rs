@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::rows::Row;
+use super::wind;
 use crate::recording::Place;
 
 /// Most moments of a plot. Of a longer flight each moment stands for several ticks, of which the plot shows the smallest
@@ -159,9 +160,13 @@ static PLOTS: [Plot; 12] = [
         ],
     ),
     plot(
-        "Wind (% of what full tilt holds against)",
+        "Wind (% of what full tilt holds against), dashed: what it pushes to the right and forward",
         120,
-        &[line("wind", BLUE, |row, _| Some(row.tick.agent.wind * 100.0))],
+        &[
+            line("wind", GREY, |row, _| Some(row.tick.agent.wind * 100.0)),
+            dashed("to the right", BLUE, |row, _| Some(wind_percent(row)?[0])),
+            dashed("forward", ORANGE, |row, _| Some(wind_percent(row)?[1])),
+        ],
     ),
     plot(
         "Navdata: their age (ms) and what is missing (% of a second)",
@@ -196,6 +201,14 @@ pub(super) fn tilt_ordered(row: &Row<'_>, scales: &Scales) -> Option<(f64, f64)>
     Some((command.roll * tilt_deg, -command.pitch * tilt_deg))
 }
 
+/// The wind towards right and forward, in percent of what full tilt holds against.
+fn wind_percent(row: &Row<'_>) -> Option<[f64; 2]> {
+    let towards = row.tick.wind_m_s2?;
+    let m_s2 = towards[0].hypot(towards[1]);
+    let percent = if m_s2 > 0.0 { row.tick.agent.wind * 100.0 / m_s2 } else { 0.0 };
+    Some(towards.map(|part| part * percent))
+}
+
 /// Plots, track and targets as the page reads them.
 #[derive(Debug, Serialize)]
 pub(super) struct Series {
@@ -203,6 +216,10 @@ pub(super) struct Series {
     plots: Vec<Value>,
     /// Right, forward and heading at each time.
     track: [Vec<Option<f64>>; 3],
+    /// What lasts of the wind at each time, towards right and forward, in m/s²; not a number where it was not recorded.
+    wind: [Vec<Option<f64>>; 2],
+    /// Names of the sides from which it comes, clockwise by eighths.
+    wind_from: [&'static str; 8],
     targets: Vec<[f64; 2]>,
 }
 
@@ -226,6 +243,11 @@ impl Series {
             times: moments(rows, every).filter_map(|row| short(row.at_s)).collect(),
             plots: plots.collect(),
             track: [place(|at| at.x_m), place(|at| at.y_m), place(|at| at.yaw_deg)],
+            wind: [0, 1].map(|part| {
+                let value = |row: &Row<'_>| row.tick.wind_m_s2.and_then(|wind| short(wind[part]));
+                moments(rows, every).map(value).collect()
+            }),
+            wind_from: wind::FROM,
             targets: targets(rows),
         }
     }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use ardrone_link::session::Order;
 use estimator::{Prediction, Quantity, TagStatus, Worth};
 use kinematics::Pose;
+use nalgebra::Vector2;
 
 use super::Phase;
 use crate::agent::{AgentCommand, ChosenPlans, Danger, Percepts, Report};
@@ -25,6 +26,9 @@ pub struct Decision {
     pub vertical_deviation_m: f64,
     /// What each quantity in navdata is worth, in the order of [`Quantity::ALL`].
     pub worth: [Worth; Quantity::ALL.len()],
+    /// What lasts of the wind, as an acceleration of the drone towards right and forward in the world; of it the percepts have
+    /// the share of full tilt.
+    pub wind_m_s2: Vector2<f64>,
     /// The known tags and their status, if tags are used.
     pub tags: Option<TagStatus>,
     /// Percepts given to the agent.

@@ -83,6 +83,7 @@ impl Vehicle {
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             worth: self.flight.estimator.worth(),
+            wind_m_s2: self.flight.wind.mean_m_s2(),
             tags,
             percepts,
             plans: step.plans,
