@@ -263,6 +263,9 @@ fn a_report_is_zoomed_moved_and_read_at_the_cursor() {
     // The map has the fence, which is too large for this one, and the wind.
     chromium.wait(&tab, "document.querySelector('#map .fence').getAttribute('d').length > 100");
     chromium.wait(&tab, "document.querySelector('#map .fencetext').textContent === 'dashed: the fence, 10 m around the start, beyond this map'");
+    chromium.evaluate(&tab, "fence.corners.forEach((corner) => { corner[0] *= 0.3; corner[1] *= 0.3; }); drawMap(); true");
+    chromium.wait(&tab, "document.querySelector('#map .fencetext').textContent === 'dashed: the fence, 10 m around the start'");
+    chromium.wait(&tab, "Math.abs(document.querySelector('#map .fence').getBBox().width - 6 / scale.metres) < 1 && 6 / scale.metres < map.clientWidth");
     chromium
         .evaluate(&tab, "series.wind[0].fill(-1.25); series.wind[1].fill(0.1); show(marked); true");
     chromium.wait(
