@@ -23,7 +23,7 @@ pub(crate) struct RecordedFlight {
     /// Charge at the beginning and at the end.
     pub(crate) battery_percent: Option<(u32, u32)>,
     /// Largest distance from the start.
-    pub(crate) farthest_m: f64,
+    pub(crate) furthest_m: f64,
 }
 
 /// The flights of a recording, in their order. [`Log::read_decisions`] is enough for them.
@@ -71,7 +71,7 @@ impl RecordedFlight {
     fn new(plan: &str, at: Duration) -> Self {
         let air = (at, at);
         let plan = plan.to_owned();
-        Self { plan, air, ended: None, outcome: None, battery_percent: None, farthest_m: 0.0 }
+        Self { plan, air, ended: None, outcome: None, battery_percent: None, furthest_m: 0.0 }
     }
 
     fn extend(&mut self, at: Duration, tick: &Tick) {
@@ -81,7 +81,7 @@ impl RecordedFlight {
             self.battery_percent = Some((first, charge));
         }
         if let Some(at) = tick.estimate {
-            self.farthest_m = self.farthest_m.max(at.x_m.hypot(at.y_m));
+            self.furthest_m = self.furthest_m.max(at.x_m.hypot(at.y_m));
         }
     }
 
@@ -95,7 +95,7 @@ impl RecordedFlight {
             "warning": self.outcome.as_ref().is_none_or(|(warns, _)| *warns),
             "outcome": self.outcome.as_ref().map(|(_, text)| text),
             "battery_percent": self.battery_percent.map(|(first, last)| [first, last]),
-            "farthest_m": self.farthest_m,
+            "furthest_m": self.furthest_m,
         })
     }
 

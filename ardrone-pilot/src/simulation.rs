@@ -108,8 +108,8 @@ mod tests {
     fn a_plan_is_flown_to_its_end() {
         let flight = flown("takeoff\ngoto 1 0 0 0\nland\n");
         assert_eq!(flight.outcome, Some(Outcome::Completed));
-        let farthest = flight.track.iter().map(|(_, pose)| pose.x_m).fold(0.0, f64::max);
-        assert!((0.9..1.2).contains(&farthest), "{farthest}");
+        let furthest = flight.track.iter().map(|(_, pose)| pose.x_m).fold(0.0, f64::max);
+        assert!((0.9..1.2).contains(&furthest), "{furthest}");
         let seconds = flight.duration.as_secs_f64();
         assert!((5.0..30.0).contains(&seconds), "{seconds}");
         assert!((0.2..10.0).contains(&flight.battery_percent), "{}", flight.battery_percent);

@@ -248,7 +248,7 @@ fn the_flights_of_a_run_are_told_apart() {
     let [from, until] = [&short, &long].map(|flight| value(flight, "from_s"));
     assert!(from + value(&short, "length_s") < until, "{found}");
     assert!(value(&short, "length_s") + 2.0 < value(&long, "length_s"), "{found}");
-    assert!(value(&short, "farthest_m") < 0.4 && value(&long, "farthest_m") > 0.8, "{found}");
+    assert!(value(&short, "furthest_m") < 0.4 && value(&long, "furthest_m") > 0.8, "{found}");
     // Each has its report, with links to the other one; without a number it is the last one's.
     for (path, number, plan, link) in [
         ("report/0", 1, "short.txt", "href=\"1\""),

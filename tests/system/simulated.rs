@@ -350,16 +350,16 @@ fn every_airframe_is_flown_without_going_far_beyond_a_target() {
     {
         for seed in 1..=3 {
             let simulation = with_drone(DroneConfig { profile, seed, ..DroneConfig::default() });
-            let mut farthest_m: f64 = 0.0;
+            let mut furthest_m: f64 = 0.0;
             let plan = plan("takeoff\ngoto 0 2 0 0\ngoto 0 2 1 0\ngoto 0 2 0 0\nland");
             let flight = simulation
                 .fly_watched(plan, |moment| {
                     let beyond_m = moment.truth.odometry_m.y - 2.0;
-                    farthest_m = farthest_m.max(beyond_m);
+                    furthest_m = furthest_m.max(beyond_m);
                 })
                 .unwrap();
             assert_eq!(flight.outcome, Outcome::Completed, "{profile:?}");
-            assert!(farthest_m < beyond_m, "{profile:?}: {farthest_m:.2} m");
+            assert!(furthest_m < beyond_m, "{profile:?}: {furthest_m:.2} m");
         }
     }
 }

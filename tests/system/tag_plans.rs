@@ -59,17 +59,17 @@ fn a_search_in_vain_ends_in_time_inside_the_fence_and_is_told() {
     let mut simulation = day(1, false, &[], "");
     simulation.pilot.limits =
         FlightLimits { border: Border::circle(1.5), ..FlightLimits::default() };
-    let mut farthest_m = 0.0_f64;
+    let mut furthest_m = 0.0_f64;
     let flight = simulation
         .fly_watched(plan("takeoff\nfindTag\nland\n"), |moment: &Moment| {
-            farthest_m = farthest_m.max(moment.truth.position_m.xy().norm());
+            furthest_m = furthest_m.max(moment.truth.position_m.xy().norm());
         })
         .unwrap();
     assert!(happened(&flight, &FlightEvent::NoTagFound), "{:?}", flight.events);
     assert!(matches!(flight.outcome, Outcome::Failsafe { .. }), "{}", flight.outcome);
     assert!(flight.duration < Duration::from_secs(50), "{:?}", flight.duration);
     // It looked around, half a metre inside the fence.
-    assert!((0.8..1.4).contains(&farthest_m), "{farthest_m}");
+    assert!((0.8..1.4).contains(&furthest_m), "{furthest_m}");
 }
 
 #[test]

@@ -458,12 +458,12 @@ fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
             bench.driver.surroundings.world.send_at(now, datagram.as_bytes());
             bench.step();
         }
-        let mut farthest_m = 0.0_f64;
+        let mut furthest_m = 0.0_f64;
         bench.until(60 * SECOND, |bench| {
-            farthest_m = farthest_m.max(bench.truth().position_m.xy().norm());
+            furthest_m = furthest_m.max(bench.truth().position_m.xy().norm());
             !bench.outcomes.is_empty()
         });
-        assert!(farthest_m < 4.8, "{farthest_m} m with numbers from {number}");
+        assert!(furthest_m < 4.8, "{furthest_m} m with numbers from {number}");
     }
 }
 

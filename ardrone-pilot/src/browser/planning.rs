@@ -77,8 +77,8 @@ mod tests {
         let simulated = planning().simulate(text);
         assert_eq!(simulated["completed"], true, "{simulated}");
         let track = simulated["track"].as_array().unwrap();
-        let farthest = track.iter().filter_map(|point| point[2].as_f64()).fold(0.0, f64::max);
-        assert!((0.9..1.2).contains(&farthest), "{farthest}");
+        let furthest = track.iter().filter_map(|point| point[2].as_f64()).fold(0.0, f64::max);
+        assert!((0.9..1.2).contains(&furthest), "{furthest}");
         assert_eq!(track[0][0], 0.0, "it begins when the drone leaves the ground");
     }
 

@@ -93,7 +93,7 @@ const flights = (() => {
       const name = flight.plan.split(/[\\/]/).at(-1) || "by orders";
       row.append(
         choice(`${recording.name}/${index}`, `the flight of ${time}`), cell(time), cell(name),
-        cell(ended, flight.warning && flight.outcome ? "ill" : ""), cell(seconds(flight.length_s)), cell(charge), cell(`${flight.farthest_m.toFixed(2)} m`),
+        cell(ended, flight.warning && flight.outcome ? "ill" : ""), cell(seconds(flight.length_s)), cell(charge), cell(`${flight.furthest_m.toFixed(2)} m`),
         actions(recording, file, time, index),
       );
       Object.assign(row.dataset, { plan: name.toLowerCase(), ill: String(flight.warning && flight.outcome !== null), at: String(date.getTime()) });

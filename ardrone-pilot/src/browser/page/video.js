@@ -121,7 +121,7 @@
     horizon.style.display = status.camera === "bottom" ? "none" : "";
     horizon
       .setAttribute("transform", `translate(320 180) rotate(${-roll}) translate(0 ${PIXELS_PER_DEGREE * pitch})`);
-    const target = status.target ? `, target ${signed(status.target.z_m)} m, ${status.distance_m.toFixed(1)} m away` : "";
+    const target = status.target ? `, target ${signed(status.target.z_m)} m, ${status.distance_m.toFixed(1)} m to go` : "";
     document.getElementById("seen").textContent =
       `height ${signed(status.pose.z_m)} m, heading ${signed(status.pose.yaw_deg, 0)}\u00b0${target}`;
   }
