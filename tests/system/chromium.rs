@@ -157,6 +157,12 @@ impl Chromium {
         self.mouse(tab, selector, off, &["mousePressed", "mouseReleased"]);
     }
 
+    /// Pastes a text into what has the focus.
+    pub(crate) fn insert(&mut self, tab: &Tab, selector: &str, text: &str) {
+        self.evaluate(tab, &format!("document.querySelector('{selector}').focus(); true"));
+        self.call(Some(tab), "Input.insertText", &json!({ "text": text }));
+    }
+
     /// Presses a mouse's button and keeps it pressed.
     pub(crate) fn press(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
         self.mouse(tab, selector, off, &["mousePressed"]);

@@ -331,9 +331,10 @@ fn a_drone_is_held_and_landed_from_everywhere() {
 fn a_report_is_open(person: &mut Keyboard<'_>) {
     person.wait("document.querySelectorAll('#recordings .actions button').length > 0");
     let open = "window.loaded = false; document.querySelector('#report').onload = () => (window.loaded = true); \
-        document.querySelector('#recordings .actions button').click(); true";
-    person.chromium.evaluate(&person.tab, open);
-    person.wait("window.loaded");
+        document.querySelector('#recordings .actions button').click(); document.querySelector('#report').hidden";
+    // Until then nobody can be in it.
+    assert_eq!(person.chromium.evaluate(&person.tab, open), true);
+    person.wait("window.loaded && !document.querySelector('#report').hidden");
 }
 
 /// Whatever has the focus in a report is seen to have it.

@@ -154,6 +154,24 @@ fn nothing_moves_under_the_cursor() {
     let twice = "{ const all = [...document.querySelectorAll('[id]')].map(({ id }) => id); \
         all.filter((id, at) => all.indexOf(id) !== at).join() }";
     assert_eq!(chromium.evaluate(&tab, twice), "", "a name that two parts have");
+    // The newest event is seen by somebody who comes back from another view, and not by somebody who reads older ones.
+    let far = "[document.querySelector('#events')].map((list) => list.scrollHeight - list.scrollTop - list.clientHeight)[0]";
+    let more = "for (let count = 0; count < 30; count += 1) take({ type: 'event', t_s: 1, warning: false, text: 'more' })";
+    chromium.evaluate(&tab, "show('plots')");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    chromium.evaluate(&tab, &format!("{more}; show('fly')"));
+    chromium.wait(&tab, &format!("{far} < 5"));
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    chromium.evaluate(&tab, more);
+    assert!(chromium.evaluate(&tab, far).as_f64().unwrap() < 5.0);
+    let up = "{ const list = document.querySelector('#events'); list.dispatchEvent(new WheelEvent('wheel')); list.scrollTop = 0; }";
+    chromium.evaluate(&tab, up);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    chromium.evaluate(&tab, more);
+    assert_eq!(chromium.evaluate(&tab, "document.querySelector('#events').scrollTop"), 0);
+    let end =
+        "{ const list = document.querySelector('#events'); list.scrollTop = list.scrollHeight; }";
+    chromium.evaluate(&tab, end);
     // The footer of a short view is where that of a long one is.
     let bottom =
         "document.querySelector('footer').getBoundingClientRect().bottom > innerHeight - 12";

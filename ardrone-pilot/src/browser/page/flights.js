@@ -158,10 +158,18 @@ const flights = (() => {
   // Of one flight, or of a recording in which nothing flew.
   function report(file, index) {
     $("comparison").hidden = true;
-    $("report").hidden = false;
+    // Until it tells the page of the keys that hold and land, nobody can be in it.
+    $("report").hidden = true;
+    note("making the report");
     $("report").src = `flights/${file}/report${index === undefined ? "" : `/${index}`}${query}`;
-    $("report").scrollIntoView({ block: "nearest" });
   }
+
+  $("report").addEventListener("load", () => {
+    if (!$("report").src || !$("comparison").hidden) return;
+    note("");
+    $("report").hidden = false;
+    $("report").scrollIntoView({ block: "nearest" });
+  });
 
   // ---- A flight played back in the Fly view.
 

@@ -32,6 +32,7 @@ const map = (() => {
   const STALE = 2;
 
   const [NEAREST, FARTHEST] = [0.3, 100]; // half of the smaller side of the map, in metres
+  const JUMP = 1; // between two places of the flown way, in metres
   const FOLLOWS = 150; // the view follows with this time constant, in milliseconds
   const TREMBLES = 4; // a hand that clicks moves this far, in pixels
 
@@ -158,6 +159,12 @@ const map = (() => {
     view.y += (y - view.y) * share;
   }
 
+  // The flown way. Where it jumps, another flight has begun with a frame of its own.
+  function flownWay() {
+    const jumps = ([x, y], before) => !before || Math.hypot(x - before[0], y - before[1]) > JUMP;
+    return trail.map((place, index) => `${jumps(place, trail[index - 1]) ? "M" : "L"}${points([place])}`).join("");
+  }
+
   function drawDrone(size) {
     const pose = status && status.pose;
     const target = status && status.target;
@@ -177,7 +184,7 @@ const map = (() => {
       set($("doubt"), { cx: pose.x_m, cy: -pose.y_m, r: 2 * status.horizontal_deviation_m });
     }
     const end = trail.at(-1);
-    if (end !== trailDrawn) set($("trail"), { points: points(trail) });
+    if (end !== trailDrawn) set($("trail"), { d: flownWay() });
     trailDrawn = end;
   }
 
@@ -197,7 +204,8 @@ const map = (() => {
     const turn = Math.atan2(place[0] - view.x, place[1] - view.y);
     $("fencearrow").firstElementChild.style.transform = `rotate(${turn}rad)`;
     $("fencearrow").lastElementChild.textContent = `fence, ${away(place).toFixed(1)} m`;
-    const [x, y] = [Math.sin(turn) * (width / 2 - 60), -Math.cos(turn) * (height / 2 - 40)];
+    // Beside the buttons at the right.
+    const [x, y] = [Math.min(Math.sin(turn) * (width / 2 - 60), width / 2 - 130), -Math.cos(turn) * (height / 2 - 40)];
     $("fencearrow").style.transform = `translate(${width / 2 + x - 45}px, ${height / 2 + y - 12}px)`;
   }
 
@@ -253,7 +261,8 @@ const map = (() => {
     const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
     const { width } = $("map").getBoundingClientRect();
     const pixels = (step * width) / (2 * wide);
-    const bar = pixels < 45 ? 2 : 1;
+    // As wide as its text.
+    const bar = [1, 2, 4].find((bar) => bar * pixels > 56) ?? 8;
     $("scalebar").style.width = `${bar * pixels}px`;
     $("scalebar").textContent = `${bar * step} m`;
     $("scale").textContent = `disc: position uncertainty; dashed: the fence, ${flight.fence.text}${tagged}${simulated}`;

@@ -10,6 +10,8 @@ const at = (seconds) => `${seconds.toFixed(1)} s`;
 // Time to confirm a cut, the end of an emergency, or a click on the map, in milliseconds.
 const CUT_AGAIN = 2500;
 const GO_AGAIN = 8000;
+// A scroll that begins this long after a wheel, a finger or a key is theirs, in milliseconds.
+const SCROLLS = 500;
 
 let flight = null; // sent first
 let status = null;
@@ -165,11 +167,25 @@ function line(list, seconds, text, ill) {
   item.append(time, " ", text);
   if (ill) item.className = "ill";
   const lines = $(list);
-  // Somebody who has scrolled up reads.
-  const follows = lines.scrollHeight - lines.scrollTop - lines.clientHeight < 30;
   lines.append(item);
   while (lines.childElementCount > 100) lines.firstElementChild.remove();
-  if (follows) lines.scrollTop = lines.scrollHeight;
+  follow(lines);
+}
+
+// Shows the last line, but to somebody who has scrolled up and reads.
+const follow = (lines) => lines.dataset.reads || (lines.scrollTop = lines.scrollHeight);
+for (const lines of [$("events"), $("decisions")]) {
+  let touched = -Infinity; // what else scrolls is no wish to read
+  for (const kind of ["wheel", "touchmove", "pointerdown", "keydown"]) {
+    lines.addEventListener(kind, () => (touched = performance.now()), { passive: true });
+  }
+  lines.addEventListener("scroll", () => {
+    const isUp = lines.scrollHeight - lines.scrollTop - lines.clientHeight > 30;
+    if (!isUp) lines.dataset.reads = "";
+    else if (performance.now() - touched < SCROLLS) lines.dataset.reads = "yes";
+  });
+  // When its view is shown again, or has another width.
+  new ResizeObserver(() => follow(lines)).observe(lines);
 }
 
 function addEvent(message) {
@@ -288,6 +304,7 @@ function drawFacts() {
   };
   const { pose, velocity_m_s: velocity, battery_percent: charge } = status;
   put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? (status.manual && status.manual !== "hold" ? "by hand" : "holding") : status.phase);
+  $("phase").classList.toggle("alarm", Boolean(status.emergency));
   put("time", status.flight_time_s === null ? "–" : minutes(status.flight_time_s));
   put("step", status.step === null ? "–" : `${status.step + 1} of ${status.steps}`);
   const volts = status.battery_v ? `, ${status.battery_v.toFixed(1)} V` : "";

@@ -536,6 +536,13 @@ land
   };
   // The browser's own history knows only what was typed, and mixes it with what was written by other means.
   text.addEventListener("beforeinput", (event) => {
+    // What is pasted is looked at before the browser shows it, which takes minutes for a large text.
+    const added = new Blob([event.data ?? event.dataTransfer?.getData("text/plain") ?? ""]).size;
+    if (added > flight.plan_bytes) {
+      event.preventDefault();
+      answer(`${tooLarge("what was pasted", added)}.`);
+      return;
+    }
     const by = { historyUndo: -1, historyRedo: 1 }[event.inputType];
     if (!by) return;
     event.preventDefault();
