@@ -3,7 +3,6 @@
 
 const heights = (() => {
   const EVERY = 100; // milliseconds between two drawings
-  const DASHED = 200; // places of a way up to which it is dashed
   const APART = 14; // numbers that are closer are written together, in pixels
   let drawnAt = 0;
   let [turn, tilt, zoom] = [0.6, 0.5, 1]; // radians, radians, factor
@@ -44,8 +43,7 @@ const heights = (() => {
 
   function line(context, places, colour, dash = []) {
     context.strokeStyle = colour;
-    // A long way in dashes takes minutes to draw.
-    context.setLineDash(places.length > DASHED ? [] : dash);
+    context.setLineDash(dash);
     context.beginPath();
     places.forEach(([x, y], index) => (index ? context.lineTo(x, y) : context.moveTo(x, y)));
     context.stroke();
