@@ -128,6 +128,7 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "landing": status.landing.map(|reason| reason.to_string()),
         "landing_ordered": status.landing == Some(LandingReason::Operator),
         "emergency": status.emergency,
+        "airborne": status.airborne,
         "flight_time_s": status.flight_time.map(|time| time.as_secs_f64()),
         "camera": status.camera,
         "step": step,

@@ -279,11 +279,13 @@ function drawButtons() {
   $("start").disabled = !standby || !flight || !flight.steps.length || !readiness || !readiness.ready || watching;
   $("land").disabled = $("cut").disabled = !live;
   const emergency = live && status && status.emergency;
-  $("recover").disabled = !emergency;
+  // Before it lies on the ground the vehicle would refuse.
+  const fallen = Boolean(emergency && !status.airborne);
+  $("recover").disabled = !fallen;
   // The bright one is the one that helps.
   $("land").classList.toggle("prime", live && isAirborne() && !emergency);
   $("start").classList.toggle("prime", !$("start").disabled && !emergency);
-  $("recover").classList.toggle("prime", Boolean(emergency));
+  $("recover").classList.toggle("prime", fallen);
   const now = performance.now();
   const armed = now < armedUntil;
   $("cut").classList.toggle("armed", armed);
