@@ -30,8 +30,10 @@ const flights = (() => {
       note(`The flights cannot be listed: ${error.message}`);
       return;
     }
-    body.replaceChildren();
-    if (plan.simulated() && plan.simulated().track) body.append(simulationRow());
+    // Rows come one by one at first. Later they are exchanged at once: somebody may be about to press a button of one.
+    const isFirst = !body.childElementCount;
+    const made = plan.simulated() && plan.simulated().track ? [simulationRow()] : [];
+    if (isFirst) body.append(...made);
     note(files.length ? "" : "There is no recorded flight yet.");
     for (const [index, file] of files.entries()) {
       const last = summaries.get(file.name);
@@ -44,8 +46,11 @@ const flights = (() => {
         }
         if (mine !== round) return;
       }
-      body.append(...rows(summaries.get(file.name)));
+      const found = rows(summaries.get(file.name));
+      made.push(...found);
+      if (isFirst) body.append(...found);
     }
+    if (!isFirst) exchange(made);
     filter();
     note(files.length ? "" : "There is no recorded flight yet.");
     // The end of the last flight may not be recorded yet.
@@ -54,6 +59,13 @@ const flights = (() => {
     if (!flies && [...summaries.values()].some(isOpen)) setTimeout(() => view === "flights" && mine === round && list(), LATER);
     chosen = chosen.filter((key) => body.querySelector(`input[value="${CSS.escape(key)}"]`));
     compare();
+  }
+
+  // Puts rows in the place of those before; the focus stays on the button of the same name.
+  function exchange(made) {
+    const focused = body.contains(document.activeElement) ? document.activeElement.ariaLabel : null;
+    body.replaceChildren(...made);
+    if (focused) body.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
   }
 
   const cell = (text, className = "") => Object.assign(document.createElement("td"), { textContent: text, className });
