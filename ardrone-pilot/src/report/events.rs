@@ -140,7 +140,7 @@ fn decisions(events: &mut Vec<Event>, rows: &[Row<'_>]) {
             veto.clone_from(&row.tick.veto);
             let text = match &veto {
                 Some(veto) => words::veto(veto),
-                None => words::no_veto().to_owned(),
+                None => words::NO_VETO.to_owned(),
             };
             events.push(Event::new(row.at_s, Kind::Danger, &text));
         }

@@ -334,7 +334,7 @@ impl Findings {
         let mut told: Vec<&str> = Vec::new();
         for event in flight.events.iter().filter(|event| event.kind.warns()) {
             let text = event.text.as_str();
-            if !told.contains(&text) && text != words::no_veto() && told.len() < 12 {
+            if !told.contains(&text) && text != words::NO_VETO && told.len() < 12 {
                 told.push(text);
                 self.add(event.at_s, event.text.clone());
             }

@@ -25,9 +25,7 @@ pub(super) fn veto(name: &str) -> String {
 }
 
 /// What follows a veto.
-pub(super) fn no_veto() -> &'static str {
-    "the safety monitor lets the agent's commands pass again"
-}
+pub(super) const NO_VETO: &str = "the safety monitor lets the agent's commands pass again";
 
 /// A name like `TakingOff` as words: "taking off".
 pub(super) fn spoken(name: &str) -> String {

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use autopilot::agent::WARNING_BATTERY_PERCENT;
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{FlightEvent, ManualControl, NotReady, Phase, RestsOn, Status, Telemetry};
@@ -231,7 +232,7 @@ fn headline(view: &View) -> Paragraph<'_> {
         parts.push(Span::raw(format!("  step {}/{}{by_hand}", step + 1, status.steps)));
     }
     let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
-    let low = status.battery_percent.is_some_and(|percent| percent <= 20);
+    let low = status.battery_percent.is_some_and(|percent| percent <= WARNING_BATTERY_PERCENT);
     let style = if low { Style::new().fg(WARNING) } else { Style::new() };
     parts.push(Span::styled(format!("  battery {charge}"), style));
     let (link, style) = match status.navdata_age {
