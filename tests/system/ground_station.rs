@@ -3,34 +3,22 @@
 use std::io::{Read as _, Write as _};
 use std::net::{IpAddr, TcpStream, UdpSocket};
 use std::path::Path;
-use std::process::{Child, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
 use serde_json::{Value, json};
 
 use crate::chromium::{Chromium, Tab};
 use crate::processes::{plan_file, program, signal, with_page};
+use crate::station::Station;
 
-/// The program at rest, with a page, and folders of its own.
-struct Station {
-    child: Child,
-    /// As printed, with the token if there is one.
-    url: String,
-    folder: tempfile::TempDir,
+/// The program at rest, with plans of its own and the page at this address.
+fn program_at(address: &str, arguments: &[&str]) -> Station {
+    let arguments = [&["--ui", address, "--plans", "plans"], arguments].concat();
+    Station::start(&arguments, &[])
 }
 
 impl Station {
-    fn start(address: &str, arguments: &[&str]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let mut pilot = program("ardrone-pilot");
-        // Its settings would be written there.
-        pilot.current_dir(folder.path());
-        pilot.args(["--plain", "--ui", address, "--log"]).arg(folder.path().join("flights.mcap"));
-        pilot.arg("--plans").arg(folder.path().join("plans")).args(arguments);
-        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
-        Self { child, url, folder }
-    }
-
     /// `127.0.0.1:1234`.
     fn host(&self) -> &str {
         self.url.trim_start_matches("http://").trim_end_matches('/')
@@ -60,14 +48,6 @@ impl Station {
     }
 }
 
-impl Drop for Station {
-    fn drop(&mut self) {
-        // The process may have ended already.
-        _ = self.child.kill();
-        _ = self.child.wait();
-    }
-}
-
 fn happened(chromium: &mut Chromium, tab: &Tab, what: &str) {
     let events = "document.querySelector('#events').textContent";
     chromium.wait(tab, &format!("{events}.includes('{what}')"));
@@ -88,7 +68,7 @@ fn number(chromium: &mut Chromium, tab: &Tab, expression: &str) -> f64 {
 #[test]
 fn the_example_is_three_clicks_from_the_air() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     planner(&mut chromium, &tab);
     chromium.wait(&tab, "document.querySelector('#expected').textContent.includes('5.7 m')");
@@ -110,7 +90,7 @@ fn the_example_is_three_clicks_from_the_air() {
 #[test]
 fn a_plan_is_made_simulated_flown_and_compared() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     planner(&mut chromium, &tab);
     // On an empty plan a click adds a take-off, too; before a landing on a tag it adds a target.
@@ -218,7 +198,7 @@ fn a_plan_is_made_simulated_flown_and_compared() {
 #[test]
 fn the_flights_of_a_run_are_told_apart() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
     for (name, plan) in
@@ -337,7 +317,7 @@ fn own_address() -> Option<IpAddr> {
 #[test]
 fn pages_hand_over_the_controls() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0.0.0.0:0", &["--mock"]);
+    let station = program_at("0.0.0.0:0", &["--mock"]);
     let local = station.url.replace("ADDRESS-OF-THIS-MACHINE", "127.0.0.1");
     let first = chromium.open(&local);
     planner(&mut chromium, &first);
@@ -394,7 +374,7 @@ fn pages_hand_over_the_controls() {
 /// The files of the page: what is too large, badly named or foreign is refused, and nothing else is reached.
 #[test]
 fn files_are_bounded_and_nothing_else_is_reached() {
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     std::fs::write(station.folder.path().join("secret.txt"), "secret").unwrap();
     let plan = "takeoff\nland\n";
     let status = |answer: &str| answer.split(' ').nth(1).unwrap_or_default().to_owned();
@@ -459,7 +439,7 @@ fn files_are_bounded_and_nothing_else_is_reached() {
     assert!(report.contains("sandbox allow-scripts") && !report.contains("script-src 'self'"));
     assert!(std::fs::exists(station.folder.path().join("secret.txt")).unwrap());
     // With a token everything but style and script needs it.
-    let mut open = Station::start("0.0.0.0:0", &["--mock"]);
+    let mut open = program_at("0.0.0.0:0", &["--mock"]);
     let port = open.url.split(':').nth(2).unwrap().split('/').next().unwrap();
     open.url = format!("http://127.0.0.1:{port}/");
     for path in ["/plans", "/flights", "/flights/flights.mcap", "/plans/a.txt"] {
@@ -471,7 +451,7 @@ fn files_are_bounded_and_nothing_else_is_reached() {
 #[test]
 fn a_drone_that_is_not_found_is_looked_for() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0", &["--drone", "127.0.0.1"]);
+    let station = program_at("0", &["--drone", "127.0.0.1"]);
     let tab = chromium.open(&station.url);
     // The page is complete.
     chromium.wait(&tab, "view === 'plan'");
@@ -494,7 +474,7 @@ fn a_drone_that_is_not_found_is_looked_for() {
 #[ignore = "makes the pictures of the documentation"]
 fn the_pictures_of_the_plan_and_of_the_flights() {
     let mut chromium = Chromium::start().expect("chromium");
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     let plan = "# Up along a stair, and down again.\ntakeoff\nsetStayTime 1\ngoto 0 1.5 0 0\n\
         goto 1.5 1.5 0.5 90\ngoto 1.5 -0.5 1 180\nmoveBy -1.5 0 -0.5 0\ngoto 0 0 0 0\nland\n";
@@ -556,7 +536,7 @@ fn the_page_and_the_report_can_be_used_by_everybody() {
         println!("skipped: {missing}");
         return;
     };
-    let station = Station::start("0", &["--mock"]);
+    let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     planner(&mut chromium, &tab);
     chromium.click(&tab, "#simulate", [0.0; 2]);
@@ -604,7 +584,7 @@ fn the_page_fits_telephones_and_large_screens() {
         "takeoff\nsetStayTime 90\ngoto 0 1 0 0\nsetStayTime 1\ngoto -1.5 -0.55 -0.25 -180\nland\n",
     );
     let path = plan.path().to_str().unwrap().to_owned();
-    let station = Station::start("0", &["--mock", "--plan", &path]);
+    let station = program_at("0", &["--mock", "--plan", &path]);
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "status?.phase === 'flying' && status.pose?.y_m > 0.8");
     for (width, height) in

@@ -1,47 +1,19 @@
 //! The page by keyboard alone: a real Chromium, the program, the mock drone, and key events.
 
-use std::process::{Child, Stdio};
-
 use serde_json::json;
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{program, with_page};
+use crate::station::Station;
 
 const CTRL: u32 = 2;
 const SHIFT: u32 = 8;
 
-/// The program at rest, with a page and folders of its own.
-struct Station {
-    child: Child,
-    url: String,
-    folder: tempfile::TempDir,
-}
-
-impl Station {
-    fn start() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let file = |name: &str| folder.path().join(name);
-        std::fs::write(file("first.txt"), "takeoff\nland\n").unwrap();
-        std::fs::write(file("second.txt"), "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut pilot = program("ardrone-pilot");
-        pilot.args(["--mock", "--plain", "--ui", "0", "--plans"]).arg(folder.path());
-        pilot.arg("--log").arg(file("flights.mcap")).arg("--config").arg(file("pilot.toml"));
-        std::fs::write(file("pilot.toml"), "[fence]\nradius_m = 9.5\n").unwrap();
-        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
-        Self { child, url, folder }
-    }
-
-    fn file(&self, name: &str) -> String {
-        std::fs::read_to_string(self.folder.path().join(name)).unwrap()
-    }
-}
-
-impl Drop for Station {
-    fn drop(&mut self) {
-        // The process may have ended already.
-        _ = self.child.kill();
-        _ = self.child.wait();
-    }
+/// The program at rest, with plans and settings of its own.
+fn station() -> Station {
+    let arguments = ["--mock", "--ui", "0", "--plans", ".", "--config", "pilot.toml"];
+    let first = ("first.txt", "takeoff\nland\n");
+    let second = ("second.txt", "takeoff\ngoto 0 1 0 0\nland\n");
+    Station::start(&arguments, &[first, second, ("pilot.toml", "[fence]\nradius_m = 9.5\n")])
 }
 
 /// Somebody at a keyboard.
@@ -115,7 +87,7 @@ impl Keyboard<'_> {
 #[test]
 fn everything_can_be_done_by_keys() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = chromium.open(&station.url);
     let mut person = Keyboard { chromium: &mut chromium, tab };
     person.wait("view === 'plan' && document.querySelectorAll('#plans option').length > 4");
@@ -236,6 +208,9 @@ fn it_is_looked_back_at(person: &mut Keyboard<'_>) {
     person.view("flights");
     person.wait("document.querySelector('#recordings tbody').textContent.includes('by keys.txt')");
     person.go(0, "it.textContent === 'Report'");
+    // A list that is read again leaves the focus where it is.
+    let focused = "flights.list().then(() => document.activeElement.textContent)";
+    assert_eq!(person.chromium.settle(&person.tab, focused), "Report");
     person.key("Enter");
     person.wait("!document.querySelector('#report').hidden");
     person.go(0, "it.id === 'report'");
@@ -260,7 +235,7 @@ fn it_is_looked_back_at(person: &mut Keyboard<'_>) {
 #[test]
 fn a_drone_is_held_and_landed_from_everywhere() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = chromium.open(&station.url);
     let mut person = Keyboard { chromium: &mut chromium, tab };
     person.wait("!!status && !!readiness && readiness.ready");
@@ -341,7 +316,7 @@ fn a_report_is_open(person: &mut Keyboard<'_>) {
 #[test]
 fn the_focus_is_seen_in_a_report() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
     // Half a second is not written yet.

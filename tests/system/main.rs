@@ -35,6 +35,7 @@ mod sequence;
 mod setpoints;
 mod side_by_side;
 mod simulated;
+mod station;
 mod streams;
 mod tag_log;
 mod tag_plans;

@@ -1,46 +1,21 @@
 //! What an operator relies on in the page while something flies: a real Chromium, the program, the mock drone.
 
-use std::process::{Child, Stdio};
-
 use serde_json::json;
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{plan_file, program, signal, with_page};
+use crate::processes::signal;
+use crate::station::Station;
 
 const HOVER: &str = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
 
-/// The program with a page.
-struct Station {
-    child: Child,
-    url: String,
+/// At rest, with the page at this address.
+fn at_rest(address: &str) -> Station {
+    Station::start(&["--mock", "--ui", address], &[])
 }
 
-impl Station {
-    /// At rest, with a mission that begins to hover.
-    fn start(address: &str) -> Self {
-        let mut pilot = program("ardrone-pilot");
-        pilot.args(["--mock", "--plain", "--no-log", "--ui", address]);
-        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
-        Self { child, url }
-    }
-
-    /// Flies the mission at once.
-    fn flying() -> Self {
-        let plan = plan_file(HOVER);
-        let mut pilot = program("ardrone-pilot");
-        pilot.arg("--plan").arg(plan.path());
-        pilot.args(["--mock", "--plain", "--no-log", "--ui", "0"]);
-        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
-        Self { child, url }
-    }
-}
-
-impl Drop for Station {
-    fn drop(&mut self) {
-        // The process may have ended already.
-        _ = self.child.kill();
-        _ = self.child.wait();
-    }
+/// Flies the mission at once.
+fn flying() -> Station {
+    Station::start(&["--mock", "--ui", "0", "--plan", "hover.txt"], &[("hover.txt", HOVER)])
 }
 
 fn text(chromium: &mut Chromium, tab: &Tab, selector: &str) -> String {
@@ -52,7 +27,7 @@ fn text(chromium: &mut Chromium, tab: &Tab, selector: &str) -> String {
 #[test]
 fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0");
+    let station = at_rest("0");
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
     let load = format!("order({})", json!({ "order": "load", "name": "hover", "plan": HOVER }));
@@ -99,6 +74,30 @@ fn an_emergency_cannot_be_missed_and_ends_with_two_clicks() {
     let warned = chromium.evaluate(&tab, warned);
     assert_eq!(chromium.evaluate(&tab, hidden), true, "{warned}");
     chromium.wait(&tab, "!document.querySelector('#start').disabled");
+    // The next flight has heights of its own, and no line from the one before.
+    let places = chromium.evaluate(&tab, "trail.length").as_u64().unwrap();
+    assert!(places > 5, "{places}");
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.wait(&tab, &format!("trailOfFlight >= {places} && status.flight_time_s > 0"));
+    let drawn = "trail = [[0, 0, 0], [0.1, 0, 0], [3, 0, 0], [3.1, 0, 0]]; map.draw(); \
+        document.querySelector('#trail').getAttribute('d').replace(/[^ML]/g, '')";
+    assert_eq!(chromium.evaluate(&tab, drawn), "MLML");
+    // Of each second the highest age of the navdata is drawn and told.
+    let age = "[...document.querySelectorAll('#plots figcaption')].find((it) => it.textContent.startsWith('age')).textContent";
+    let ages = format!(
+        "show('plots'); for (const [at, age] of [[9000.1, 0.01], [9000.2, 0.09], [9000.3, 0.02]]) \
+         plots.add({{ ...status, t_s: at, navdata_age_s: age }}); \
+         document.querySelector('#pauseplots').click(); plots.draw(); {age}"
+    );
+    let ages = chromium.evaluate(&tab, &ages);
+    assert!(ages.as_str().unwrap().contains(" 90 "), "{ages}");
+    // Help that was asked for is no error.
+    chromium.evaluate(&tab, "show('fly'); document.querySelector('#typed').value = 'help'; document.querySelector('#typing').requestSubmit(); true");
+    chromium.wait(&tab, "document.querySelector('#answer').textContent.includes('resume')");
+    let colour = |chromium: &mut Chromium, of: &str| {
+        chromium.evaluate(&tab, &format!("getComputedStyle(document.querySelector('{of}')).color"))
+    };
+    assert_eq!(colour(&mut chromium, "#answer"), colour(&mut chromium, "body"));
 }
 
 /// The largest sum of layout shifts within five seconds, as Chromium's own figure, and what moved.
@@ -112,7 +111,7 @@ const SHIFTS: &str = "window.shifts = []; new PerformanceObserver((list) => { \
 #[test]
 fn nothing_moves_under_the_cursor() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0");
+    let station = at_rest("0");
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
     for size in [[1400, 860], [390, 844]] {
@@ -202,7 +201,7 @@ fn nothing_moves_under_the_cursor() {
 #[test]
 fn keys_hold_land_and_explain_themselves() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::flying();
+    let station = flying();
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "status?.phase === 'flying' && status.step === 1");
     chromium.evaluate(
@@ -265,7 +264,7 @@ fn keys_hold_land_and_explain_themselves() {
 #[test]
 fn a_page_comes_back_after_the_program_was_started_again() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let mut station = Station::start("0");
+    let mut station = at_rest("0");
     let address = station.url.trim_start_matches("http://").trim_end_matches('/').to_owned();
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
@@ -274,7 +273,7 @@ fn a_page_comes_back_after_the_program_was_started_again() {
     station.child.wait().unwrap();
     chromium.wait(&tab, "document.querySelector('#alarm').innerText.startsWith('Over')");
     assert_eq!(chromium.evaluate(&tab, "document.body.classList.contains('stale')"), true);
-    let _again = Station::start(&address);
+    let _again = at_rest(&address);
     chromium.wait(&tab, "!over && !!status && !!readiness && readiness.ready");
     chromium.wait(&tab, "document.querySelector('#alarm').hidden");
     assert_eq!(chromium.evaluate(&tab, "document.body.classList.contains('stale')"), false);
@@ -285,7 +284,7 @@ fn a_page_comes_back_after_the_program_was_started_again() {
 #[test]
 fn a_reload_knows_the_camera_and_the_landing() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0");
+    let station = at_rest("0");
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
     let plan = "takeoff\nland\n";
@@ -309,7 +308,7 @@ fn a_reload_knows_the_camera_and_the_landing() {
 #[test]
 fn the_battery_has_volts() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start("0");
+    let station = at_rest("0");
     let tab = chromium.open(&station.url);
     chromium.wait(
         &tab,
@@ -327,7 +326,7 @@ fn the_battery_has_volts() {
 #[test]
 fn a_gamepad_steers_by_its_chosen_axes_and_holds_when_it_is_gone() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::flying();
+    let station = flying();
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "status?.phase === 'flying' && status.step >= 1");
     let pad = "window.pad = { id: 'pad', connected: true, axes: [0, 0, 0, 0, 0, 0], \

@@ -1,39 +1,14 @@
 //! The plan editor and the map of the page: a real Chromium, the program, the mock drone.
 
-use std::process::{Child, Stdio};
-
 use serde_json::json;
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{program, with_page};
+use crate::station::Station;
 
-/// The program at rest, with a page and folders of its own.
-struct Station {
-    child: Child,
-    url: String,
-    folder: tempfile::TempDir,
-}
-
-impl Station {
-    fn start() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let settings = folder.path().join("pilot.toml");
-        std::fs::write(&settings, SETTINGS).unwrap();
-        let mut pilot = program("ardrone-pilot");
-        pilot.args(["--mock", "--plain", "--ui", "0", "--plans"]).arg(folder.path());
-        pilot.arg("--log").arg(folder.path().join("flights.mcap"));
-        pilot.arg("--config").arg(settings);
-        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
-        Self { child, url, folder }
-    }
-}
-
-impl Drop for Station {
-    fn drop(&mut self) {
-        // The process may have ended already.
-        _ = self.child.kill();
-        _ = self.child.wait();
-    }
+/// The program at rest, with settings of its own.
+fn station() -> Station {
+    let arguments = ["--mock", "--ui", "0", "--plans", ".", "--config", "pilot.toml"];
+    Station::start(&arguments, &[("pilot.toml", SETTINGS)])
 }
 
 /// A page whose plan editor is complete.
@@ -56,7 +31,7 @@ const SETTINGS: &str = "# Our hall.\n[fence]\nradius_m = 9.5 # to the wall\n";
 #[test]
 fn everything_that_changes_a_plan_can_be_undone() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     std::fs::write(station.folder.path().join("other.txt"), "takeoff\nland\n").unwrap();
     let tab = planner(&mut chromium, &station);
     let text = |chromium: &mut Chromium| {
@@ -101,7 +76,7 @@ fn everything_that_changes_a_plan_can_be_undone() {
 #[test]
 fn large_plans_are_edited_and_larger_ones_refused() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     // 32 kB less what is typed below. Each target has a place of its own.
     let line = |index: usize| {
@@ -172,7 +147,7 @@ fn large_plans_are_edited_and_larger_ones_refused() {
 #[test]
 fn numbers_are_not_cut_and_count_the_same_everywhere() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     for width in [390, 1400] {
         chromium.look(&tab, [width, 860], "light");
@@ -207,7 +182,7 @@ fn numbers_are_not_cut_and_count_the_same_everywhere() {
 #[test]
 fn the_map_is_moved_and_keeps_what_is_pointed_at() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     // The middle of the map is at `[x, y]`, and a pixel has `m`.
     let seen = |chromium: &mut Chromium| {
@@ -269,7 +244,7 @@ fn the_map_is_moved_and_keeps_what_is_pointed_at() {
 #[test]
 fn two_fingers_zoom_about_what_is_between_them() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     std::thread::sleep(std::time::Duration::from_secs(1));
     let middle = chromium.middle(&tab, "#map");
@@ -320,7 +295,7 @@ fn two_fingers_zoom_about_what_is_between_them() {
 #[ignore = "measures"]
 fn pictures_of_a_long_flight() {
     let mut chromium = Chromium::start().expect("chromium");
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     let steps = (0..60).map(|step| format!("goto {} {} 0.{} 0", step % 7, step % 5, step % 9));
     let steps = steps.collect::<Vec<_>>().join("\n");
@@ -345,7 +320,7 @@ fn pictures_of_a_long_flight() {
 #[test]
 fn settings_are_seen_and_changed() {
     let Some(mut chromium) = Chromium::start() else { return };
-    let station = Station::start();
+    let station = station();
     let tab = planner(&mut chromium, &station);
     chromium.click(&tab, "[data-show=settings]", [0.0; 2]);
     chromium.wait(&tab, "document.querySelectorAll('#settings label').length > 40");
@@ -365,7 +340,7 @@ fn settings_are_seen_and_changed() {
         chromium.evaluate(&tab, &set);
         chromium.click(&tab, "#savesettings", [0.0; 2]);
     };
-    let file = || std::fs::read_to_string(station.folder.path().join("pilot.toml")).unwrap();
+    let file = || station.file("pilot.toml");
     set(&mut chromium, "radius_m", "0.1");
     chromium.wait(
         &tab,
