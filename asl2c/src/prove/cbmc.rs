@@ -168,23 +168,55 @@ impl Cbmc {
         function: &str,
         property: &str,
     ) -> Result<bool, ProveError> {
+        let is_wanted = |said: &str| said.strip_prefix(PROPERTY) == Some(property);
+        let (judged, said) = self.judged_alone(folder, function, is_wanted)?;
+        match judged.assertions.as_slice() {
+            [(_, Some(holds))] => Ok(!holds),
+            _ => Err(said.no_result()),
+        }
+    }
+
+    /// The candidates that a function of the harness keeps; the rest is not checked.
+    pub(super) fn kept(
+        &self,
+        folder: &Path,
+        function: &str,
+        chosen: &[usize],
+    ) -> Result<Vec<usize>, ProveError> {
+        let is_wanted = |said: &str| said.starts_with(CANDIDATE);
+        let (judged, said) = self.judged_alone(folder, function, is_wanted)?;
+        if judged.assertions.len() != chosen.len() {
+            return Err(said.no_result());
+        }
+        let is_kept = |index: &usize| {
+            let candidate = format!("{CANDIDATE}{index}");
+            judged
+                .assertions
+                .iter()
+                .any(|(found, holds)| found.said == candidate && *holds == Some(true))
+        };
+        Ok(chosen.iter().copied().filter(is_kept).collect())
+    }
+
+    /// What is said of some assertions of a function, without what they do not need.
+    fn judged_alone(
+        &self,
+        folder: &Path,
+        function: &str,
+        is_wanted: impl Fn(&str) -> bool,
+    ) -> Result<(Judged, Said), ProveError> {
         let goals = Goals::new(Place::Before);
         let place = (HARNESS, function);
         let mut list = self.program(folder, place, &goals)?;
         list.args(options(Checks::Properties)).arg("--show-properties");
         let listed = self.said(&mut list, || false)?.ok_or(ProveError::Stopped)?;
-        let wanted =
-            |said: &str| said == format!("{PROPERTY}{property}") || goals.number(said).is_some();
-        let names = assertions(&listed.output, wanted);
+        let names =
+            assertions(&listed.output, |said| is_wanted(said) || goals.number(said).is_some());
         let mut check = self.program(folder, place, &goals)?;
         check.args(options(Checks::Properties)).arg("--slice-formula");
         check.args(names.iter().flat_map(|name| ["--property", name]));
         let said = self.said(&mut check, || false)?.ok_or(ProveError::Stopped)?;
-        let judged = self.judge(&goals, &said)?;
-        match judged.assertions.as_slice() {
-            [(_, Some(holds))] => Ok(!holds),
-            _ => Err(said.no_result()),
-        }
+        Ok((self.judge(&goals, &said)?, said))
     }
 
     /// What is said of all assertions of a function; `None` if it was given up.

@@ -22,7 +22,7 @@ use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use translator::{DeclaredProperty, Obligations};
+use translator::{DeclaredProperty, GeneratedFile, Obligations};
 
 pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
@@ -185,11 +185,11 @@ pub fn prove(
     Ok(Proof { properties, run_time, invariant, candidates: candidates.len(), open })
 }
 
-/// Whether some transition from a state that satisfies these conditions violates a property. Much faster than
-/// [`prove`], which also shows that the conditions are an invariant.
+/// Whether a property cannot be proved with these conditions, without those that the agent itself breaks: some transition
+/// from a state that satisfies them violates it. Much faster than [`prove`], but what it does not find says nothing.
 ///
 /// The states whose next step handles one of these goals come first: where one of them violates it, the others are not
-/// looked at.
+/// looked at. Conditions are only sought to be broken there.
 ///
 /// # Errors
 /// If a file cannot be written, there is no such property, or CBMC gives no result.
@@ -200,16 +200,33 @@ pub fn violates(
     known: &[String],
     (property, goals): (&str, &[&str]),
 ) -> Result<bool, ProveError> {
+    const FUNCTION: &str = "induction";
     write_files(obligations, folder)?;
-    let tried = tried(obligations, known);
-    let at_goals = goals.iter().flat_map(|goal| obligations.invariants_at(&tried, goal));
-    for invariant in at_goals.chain([obligations.invariant(&tried)]) {
-        write(folder, &invariant.name, &invariant.text)?;
-        if cbmc.violates(folder, "induction", property)? {
-            return Ok(true);
+    let put = |invariant: GeneratedFile| write(folder, &invariant.name, &invariant.text);
+    let at_goals = |chosen: &[usize]| {
+        goals.iter().flat_map(|goal| obligations.invariants_at(chosen, goal)).collect::<Vec<_>>()
+    };
+    let mut chosen = tried(obligations, known);
+    loop {
+        for invariant in at_goals(&chosen) {
+            put(invariant)?;
+            if cbmc.violates(folder, FUNCTION, property)? {
+                return Ok(true);
+            }
         }
+        let mut kept = chosen.clone();
+        for invariant in at_goals(&chosen) {
+            put(invariant)?;
+            let left = cbmc.kept(folder, FUNCTION, &chosen)?;
+            kept.retain(|index| left.contains(index));
+        }
+        if kept.len() == chosen.len() {
+            break;
+        }
+        chosen = kept;
     }
-    Ok(false)
+    put(obligations.invariant(&chosen))?;
+    cbmc.violates(folder, FUNCTION, property)
 }
 
 /// The branches of the agent's C that no execution takes, after a [`prove`] of all in the same folder: from no state that

@@ -217,8 +217,8 @@ impl Verifier {
             let broken = is_seen.then(|| RUN_TIME.to_owned()).into_iter().collect();
             return Ok(Caught { mutant, broken, on_model: None });
         }
-        // The agent keeps the property in each transition from a state that satisfies its invariant. A mutant that
-        // does not is caught at once; another may break the invariant first.
+        // The agent keeps the property in each transition from a state that satisfies its invariant. A mutant does not, or
+        // it breaks a condition of the invariant first, most likely where it differs.
         let goals = mutant.goals(AUTOPILOT.text);
         let wanted = (mutant.expected, goals.as_slice());
         let at_once = violates(&agent, &self.cbmc, folder, invariant, wanted, spoil)?;
