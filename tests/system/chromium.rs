@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// Timeout of all operations of a page, even on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(40);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// A browser process, killed when dropped.
 pub(crate) struct Chromium {
@@ -136,8 +136,10 @@ impl Chromium {
     pub(crate) fn wait(&mut self, tab: &Tab, condition: &str) {
         let start = Instant::now();
         while self.evaluate(tab, condition) != json!(true) {
-            let page = self.evaluate(tab, "document.body.innerText");
-            assert!(start.elapsed() < PATIENCE, "never so: {condition}\n{page}");
+            if start.elapsed() > PATIENCE {
+                let page = self.evaluate(tab, "document.body.innerText");
+                panic!("never so: {condition}\n{page}");
+            }
             std::thread::sleep(Duration::from_millis(50));
         }
     }
