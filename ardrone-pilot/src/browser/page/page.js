@@ -227,11 +227,22 @@ function extendTrail(pose) {
 
 // ---- Display. Drawn in animation frames, so that a page in the background costs nothing.
 
+// Frames without anything new are left out, but for some: time passes.
+const AT_LEAST_EVERY = 200; // milliseconds
+const MOVES_ON_FOR = 1000; // milliseconds after someone did something: views come to rest
 let drawnAt = performance.now();
+let drawnStatus = null;
+let touchedAt = 0;
+for (const kind of ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "input", "resize"]) {
+  addEventListener(kind, () => (touchedAt = performance.now()), { capture: true, passive: true });
+}
 
 function draw() {
   requestAnimationFrame(draw);
   const now = performance.now();
+  const isNew = status !== drawnStatus || now - touchedAt < MOVES_ON_FOR || flights.playing();
+  if (!isNew && now - drawnAt < AT_LEAST_EVERY) return;
+  drawnStatus = status;
   // What is played is no longer looked at once something flies.
   flights.advance((now - drawnAt) / 1000, isAirborne());
   drawnAt = now;

@@ -18,6 +18,7 @@
   let codec = "";
   let size = { width: 640, height: 360 };
   let drawnAt = 0;
+  let shown = null; // the status that the overlay shows
   // For tests and the curious.
   const state = { drawn: 0, errors: 0, skipped: 0, stamp: 0, latency: [] };
   window.video = state;
@@ -110,7 +111,8 @@
     const old = drawnAt && performance.now() - drawnAt > OLD;
     canvas.classList.toggle("old", Boolean(old));
     if (old && note.hidden) say("no new picture");
-    if (!status) return;
+    if (!status || status === shown) return;
+    shown = status;
     for (const camera of ["front", "bottom"]) document.getElementById(camera).ariaPressed = String(camera === status.camera);
     if (!status.pose) return;
     const [roll, pitch] = status.attitude_deg || [0, 0];
