@@ -52,6 +52,7 @@
     (,(regexp-opt '("exactly_one" "at_most_one" "at_least_one" "never" "within" "only_after" "all_handled"
                     "unless" "until") 'symbols)
      . font-lock-builtin-face)
+    ("\\_<\\(all\\)\\s-+[a-zA-Z_][a-zA-Z0-9_]*\\s-+\\(but\\)\\_>" (1 font-lock-builtin-face) (2 font-lock-builtin-face))
     ("#include" . font-lock-preprocessor-face)
     ("[+-]!?\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)
     (,(regexp-opt '("void" "bool" "int" "short" "long" "float" "double" "signed" "unsigned" "char" "const") 'symbols)

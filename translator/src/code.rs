@@ -54,6 +54,7 @@ codes! {
     Error Overwrites "overwrites" "an output that would overwrite another file";
     Error WrongSignature "wrong-signature" "`updateBeliefs` declared with another signature";
     Error DeclaredTwice "declared-twice" "a name, section, setting or trigger that is declared twice";
+    Error NotInClass "not-in-class" "a class that leaves out what is not in the other class, or all of it";
     Error ReservedName "reserved-name" "a name that C, Rust or generated code uses";
     Error RustBoundary "rust-boundary" "something without a counterpart in the Rust bindings";
     Error NotDeclared "not-declared" "an action, belief, goal or clock that the configuration does not declare";

@@ -244,7 +244,15 @@ fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
             Some("clock") => items.basics(configuration, |kind| kind != TypeKind::Void),
             Some(_) => {}
         },
-        "classes" if entry.contains(':') => actions(items),
+        "classes" if entry.contains(':') => {
+            actions(items);
+            for class in &configuration.classes {
+                items.add(&class.name.text, CompletionItemKind::Class, "class");
+            }
+            for word in ["all", "but"] {
+                items.add(word, CompletionItemKind::Keyword, "");
+            }
+        }
         "settables" | "perceived" | "triggerables" | "preemptive" => beliefs(items),
         "properties" if entry.contains('(') => {
             actions(items);
@@ -334,7 +342,7 @@ mod tests {
         assert!(labels("").contains("triggerables"));
         assert!(labels("settings { input = a; o").contains("output"));
         assert_eq!(labels("settings { instance = "), "static context");
-        assert_eq!(labels("classes { a: "), "act");
+        assert_eq!(labels("classes { a: "), "act c all but");
         assert_eq!(labels("triggerables { +!"), "go");
         assert!(labels("properties { p: ").contains("within"));
         assert_eq!(labels("properties { p: never("), "act go c unless until");

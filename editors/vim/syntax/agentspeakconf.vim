@@ -11,6 +11,8 @@ syntax keyword agentspeakconfType void bool char short int long float double sig
 syntax match agentspeakconfSection /\<\(settings\|includes\|structs\|basics\|classes\|types\|settables\|perceived\|triggerables\|preemptive\|properties\)\ze\_s*{/
 syntax match agentspeakconfSetting /\<\(trace\|clock\|input\|output\|header\|basics\|rust\|matrix\|instance\|inbox\|max_events\)\ze\s*=/
 syntax keyword agentspeakconfFormula exactly_one at_most_one at_least_one never within only_after all_handled unless until
+syntax match agentspeakconfFormula /\<all\ze\_s\+\h\w*\_s\+but\>/
+syntax match agentspeakconfFormula /\<but\ze\_s\+\h/
 syntax match agentspeakconfInclude /#include\s*\(<[^>]*>\|"[^"]*"\)/
 syntax match agentspeakconfComment +//.*$+ contains=@Spell
 syntax region agentspeakconfComment start=+/\*+ end=+\*/+ contains=@Spell

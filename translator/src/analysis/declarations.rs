@@ -64,6 +64,10 @@ impl Declarations {
                         .help("properties could not distinguish them: rename the class"),
                 );
             }
+            // What another class has is judged there.
+            if class.all_but.is_some() {
+                continue;
+            }
             for (index, action) in class.actions.iter().enumerate() {
                 if class.actions[..index].iter().any(|other| other.text == action.text) {
                     let message =

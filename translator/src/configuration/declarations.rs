@@ -3,7 +3,7 @@
 use super::c_type::{c_type, check_type};
 use super::parser::Parser;
 use super::scanner::{Parsed, is_word, is_word_start};
-use super::{ActionClass, Basic, Configuration, Predicate, Struct};
+use super::{ActionClass, AllBut, Basic, Configuration, Predicate, Struct};
 use crate::code::Code;
 use crate::syntax::ast::Name;
 use crate::types::{CType, TypeKind};
@@ -56,17 +56,79 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `name: action, action;`
+    /// `name: action, action;` or `name: all class but action, class;`
     pub(super) fn class(&mut self) -> Parsed<()> {
         let name = self.scanner.word("a class of actions")?;
         self.scanner.expect(":")?;
-        let mut actions = vec![self.scanner.word("a basic action")?];
-        while self.scanner.take(",") {
-            actions.push(self.scanner.word("a basic action")?);
-        }
+        let first = self.scanner.word("a basic action")?;
+        self.scanner.skip_blanks()?;
+        // An action may have this name, too.
+        let all = first.text == "all" && self.scanner.rest().starts_with(is_word_start);
+        let all_but = all.then(|| self.all_but()).transpose()?;
+        let actions = match &all_but {
+            Some(all_but) => self.left(all_but)?,
+            None => self.names(first, "a basic action")?,
+        };
         self.scanner.expect(";")?;
-        self.configuration.classes.push(ActionClass { name, actions });
+        self.configuration.classes.push(ActionClass { name, actions, all_but });
         Ok(())
+    }
+
+    /// What follows `all`.
+    fn all_but(&mut self) -> Parsed<AllBut> {
+        const LEFT_OUT: &str = "a basic action or a class of actions";
+        let class = self.scanner.word("a class of actions")?;
+        let but = self.scanner.word("`but`")?;
+        if but.text != "but" {
+            let message = format!("expected `but`, found `{}`", but.text);
+            return Err(Code::Syntax.at(message, but.span));
+        }
+        let first = self.scanner.word(LEFT_OUT)?;
+        Ok(AllBut { class, but: self.names(first, LEFT_OUT)? })
+    }
+
+    /// Names behind commas.
+    fn names(&mut self, first: Name, expected: &str) -> Parsed<Vec<Name>> {
+        let mut names = vec![first];
+        self.scanner.skip_blanks()?;
+        while self.scanner.take(",") {
+            names.push(self.scanner.word(expected)?);
+            self.scanner.skip_blanks()?;
+        }
+        Ok(names)
+    }
+
+    /// The actions of a class that are not left out.
+    fn left(&self, AllBut { class, but }: &AllBut) -> Parsed<Vec<Name>> {
+        let declared = |name: &Name| {
+            let mut classes = self.configuration.classes.iter();
+            classes.find(|class| class.name.text == name.text)
+        };
+        let Some(whole) = declared(class) else {
+            return Err(Code::NotDeclared
+                .at(format!("no class `{}` is declared before", class.text), class.span.clone())
+                .help("declare the class above, and leave actions of it out here"));
+        };
+        let mut left = whole.actions.clone();
+        for name in but {
+            let own = std::slice::from_ref(name);
+            for action in declared(name).map_or(own, |class| &class.actions) {
+                let Some(place) = left.iter().position(|other| other.text == action.text) else {
+                    let message =
+                        format!("`{}` is not left in the class `{}`", action.text, class.text);
+                    return Err(Code::NotInClass
+                        .at(message, name.span.clone())
+                        .help("leave out what is in the class, and that once"));
+                };
+                left.remove(place);
+            }
+        }
+        if left.is_empty() {
+            return Err(Code::NotInClass
+                .at(format!("nothing is left of the class `{}`", class.text), class.span.clone())
+                .help("a class has at least one action"));
+        }
+        Ok(left)
     }
 
     /// The trace function is declared as a basic action.

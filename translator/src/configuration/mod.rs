@@ -220,6 +220,17 @@ pub struct ActionClass {
     pub name: Name,
     /// The basic actions.
     pub actions: Vec<Name>,
+    /// How they are written, unless one by one.
+    pub all_but: Option<AllBut>,
+}
+
+/// `all CLASS but NAME, NAME`: the actions of a class without some.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AllBut {
+    /// A class that is declared before.
+    pub class: Name,
+    /// Actions, and classes that are declared before.
+    pub but: Vec<Name>,
 }
 
 /// A belief or goal declaration.

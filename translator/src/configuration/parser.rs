@@ -274,6 +274,47 @@ mod tests {
     }
 
     #[test]
+    fn a_class_has_all_but_some_of_another() {
+        let classes = |text: &str| {
+            let (configuration, diagnostics) = parse(&format!("{MINIMAL} classes {{ {text} }};"));
+            let names = |class: &crate::configuration::ActionClass| {
+                let actions = class.actions.iter().map(|action| action.text.as_str());
+                format!("{}: {}", class.name.text, actions.collect::<Vec<_>>().join(" "))
+            };
+            let classes: Vec<String> = configuration.classes.iter().map(names).collect();
+            let messages = diagnostics.into_iter().map(|diagnostic| diagnostic.message);
+            (classes.join("; "), messages.collect::<Vec<_>>().join("; "))
+        };
+        let good = |text: &str| {
+            let (classes, messages) = classes(text);
+            assert_eq!(messages, "", "{text}");
+            classes
+        };
+        assert_eq!(
+            good("a: p, q, r, s; b: q, s; c: all a but b; d: all a but b, p; e: all c but p;"),
+            "a: p q r s; b: q s; c: p r; d: r; e: r"
+        );
+        // No words of the language elsewhere.
+        assert_eq!(
+            good("a: all; but: all, but; c: all but but all;"),
+            "a: all; but: all but; c: but"
+        );
+        for (text, expected) in [
+            ("c: all a but p; a: p, q;", "no class `a` is declared before"),
+            ("c: all c but p;", "no class `c` is declared before"),
+            ("a: p, q; c: all a but r;", "`r` is not left in the class `a`"),
+            ("a: p, q; c: all a but q, q;", "`q` is not left in the class `a`"),
+            ("a: p, q; b: q, r; c: all a but b;", "`r` is not left in the class `a`"),
+            ("a: p; c: all a but p;", "nothing is left of the class `a`"),
+            ("a: p, q; c: all a;", "expected `but`, found `;`"),
+            ("a: p, q; c: all a without q;", "expected `but`, found `without`"),
+            ("a: p, q; c: all a but;", "expected a basic action or a class of actions, found `;`"),
+        ] {
+            assert_eq!(classes(text).1, expected, "{text}");
+        }
+    }
+
+    #[test]
     fn properties_are_read() {
         let text = format!(
             "{MINIMAL} properties {{ one: exactly_one(send); none_lost: all_handled;\n\

@@ -9,7 +9,7 @@ use diagnostic::Span;
 pub use description::describe;
 pub use variables::variable_types;
 
-use crate::configuration::{Cause, Configuration, Formula as Promised};
+use crate::configuration::{AllBut, Cause, Configuration, Formula as Promised};
 use crate::syntax::Document;
 use crate::syntax::ast::{
     Agent, Atom, Expression, Formula, Name, Operator, Plan, Trigger, TriggerKind,
@@ -173,7 +173,10 @@ pub fn in_configuration<'a>(
     configuration: &'a Configuration,
     visit: &mut impl FnMut(Occurrence<'a>),
 ) {
-    let class = |name: &Name| configuration.classes.iter().any(|c| c.name.text == name.text);
+    let counted = |name: &Name| {
+        let is_class = configuration.classes.iter().any(|class| class.name.text == name.text);
+        if is_class { Meaning::Class } else { Meaning::Declared }
+    };
     let mut at = |name, meaning, usage| visit(Occurrence { name, meaning, usage });
     if let Some(name) = &configuration.settings.clock {
         at(name, Meaning::Declared, Usage::Listed);
@@ -183,8 +186,12 @@ pub fn in_configuration<'a>(
     }
     for declared in &configuration.classes {
         at(&declared.name, Meaning::Class, Usage::Declaration);
-        for action in &declared.actions {
-            at(action, Meaning::Declared, Usage::Listed);
+        let written = match &declared.all_but {
+            Some(AllBut { class, but }) => std::iter::once(class).chain(but).collect::<Vec<_>>(),
+            None => declared.actions.iter().collect(),
+        };
+        for name in written {
+            at(name, counted(name), Usage::Listed);
         }
     }
     for predicate in &configuration.predicates {
@@ -199,8 +206,7 @@ pub fn in_configuration<'a>(
     for property in &configuration.properties {
         at(&property.name, Meaning::Property, Usage::Declaration);
         for name in promised(&property.formula) {
-            let meaning = if class(name) { Meaning::Class } else { Meaning::Declared };
-            at(name, meaning, Usage::Listed);
+            at(name, counted(name), Usage::Listed);
         }
     }
 }
