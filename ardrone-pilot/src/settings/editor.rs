@@ -1,6 +1,7 @@
 //! What people must know to change a `pilot.toml`, and the change of a file of theirs.
 
 use toml::{Table, Value};
+use toml_edit::DocumentMut;
 
 use super::{DECLARED, Settings, SettingsError};
 
@@ -73,56 +74,31 @@ pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, S
     if let Err(error) = shape {
         return Err(SettingsError::Change(error.to_string().trim_end().to_owned()));
     }
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let refused = |why: String| SettingsError::Change(why);
+    let mut document: DocumentMut =
+        text.parse().map_err(|error: toml_edit::TomlError| refused(error.to_string()))?;
     for (section, values) in changes {
+        let item = document.entry(section).or_insert_with(toml_edit::table);
+        let no_section = || refused(format!("`{section}` is no section"));
+        let table = item.as_table_like_mut().ok_or_else(no_section)?;
         for (name, value) in values.as_table().into_iter().flatten() {
-            set(&mut lines, section, name, &format!("{name} = {value}"));
+            let mut written: toml_edit::Value = value
+                .to_string()
+                .parse()
+                .map_err(|error: toml_edit::TomlError| refused(error.to_string()))?;
+            match table.get_mut(name).and_then(toml_edit::Item::as_value_mut) {
+                Some(old) => {
+                    // The comment behind it.
+                    written.decor_mut().clone_from(old.decor());
+                    *old = written;
+                }
+                None => drop(table.insert(name, written.into())),
+            }
         }
     }
-    let changed = lines.join("\n") + "\n";
+    let changed = document.to_string();
     Settings::parse(path, &changed)?;
     Ok(changed)
-}
-
-/// Writes a value in place of the one of its name, or at the end of its section.
-fn set(lines: &mut Vec<String>, section: &str, name: &str, written: &str) {
-    let begins = |line: &String| header(line).is_some_and(|table| table.contains_key(section));
-    let Some(begin) = lines.iter().position(begins) else {
-        let empty = lines.last().is_none_or(|line| line.trim().is_empty());
-        lines.extend((!empty).then(String::new));
-        lines.extend([format!("[{section}]"), written.to_owned()]);
-        return;
-    };
-    let end =
-        (begin + 1..lines.len()).find(|at| header(&lines[*at]).is_some()).unwrap_or(lines.len());
-    let is_name = |line: &String| line.split_once('=').is_some_and(|(key, _)| key.trim() == name);
-    let Some(at) = (begin + 1..end).find(|at| is_name(&lines[*at])) else {
-        let last = (begin..end).rev().find(|at| !lines[*at].trim().is_empty()).unwrap_or(begin);
-        lines.insert(last + 1, written.to_owned());
-        return;
-    };
-    // An array may go on in the next lines.
-    let whole = |until: usize| lines[at..until].join("\n").parse::<Table>().is_ok();
-    let until = (at + 1..=end).find(|until| whole(*until)).unwrap_or(at + 1);
-    let comment = comment(&lines[until - 1]).to_owned();
-    lines.splice(at..until, [format!("{written}{comment}")]);
-}
-
-/// The section that a line begins; a row of an array begins none.
-fn header(line: &str) -> Option<Table> {
-    line.trim_start().starts_with('[').then(|| line.parse().ok())?
-}
-
-/// The comment behind a value, with the space before it.
-fn comment(line: &str) -> &str {
-    let value = |at: &usize| {
-        let (before, _) = line.split_at(*at);
-        // A `#` may be part of a string.
-        before.matches('"').count() % 2 == 0
-    };
-    let begin = line.match_indices('#').map(|(at, _)| at).find(value).unwrap_or(line.len());
-    let space = line[..begin].len() - line[..begin].trim_end().len();
-    if begin < line.len() { &line[begin - space..] } else { "" }
 }
 
 #[cfg(test)]
@@ -169,6 +145,20 @@ mod tests {
             with_changes("p", "", &changes("[drone]\ngps = true\n")).unwrap(),
             "[drone]\ngps = true\n"
         );
+    }
+
+    #[test]
+    fn a_section_is_changed_as_it_was_written() {
+        let wider = |text| with_changes("p", text, &changes("[fence]\nradius_m = 4\n")).unwrap();
+        assert_eq!(
+            wider("fence = { radius_m = 3, ceiling_m = 2 } # hall\n"),
+            "fence = { radius_m = 4, ceiling_m = 2 } # hall\n"
+        );
+        assert_eq!(
+            wider("fence.ceiling_m = 2\nfence.radius_m = 3 # hall\n"),
+            "fence.ceiling_m = 2\nfence.radius_m = 4 # hall\n"
+        );
+        assert_eq!(wider("\"fence\" = {}\n"), "\"fence\" = { radius_m = 4 }\n");
     }
 
     #[test]
