@@ -421,7 +421,8 @@ impl TickLoop {
             // The landing of a lost drone is never confirmed.
             Stay::UntilLeft => {
                 let may_leave = self.driver.vehicle.is_at_rest() || outcome.is_some();
-                may_leave.then_some(Outcome::Interrupted)
+                let end = if outcome.is_some() { Outcome::Interrupted } else { Outcome::CalledOff };
+                may_leave.then_some(end)
             }
         }
     }

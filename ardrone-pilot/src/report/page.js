@@ -118,7 +118,7 @@ function drawLines(picture, box, { lines, height }) {
   const { all, digits } = steps(low, high, Math.max(2, height / 40));
   for (const at of all) {
     svg("path", { class: "grid", d: `M${LEFT} ${y(at)}H${LEFT + inner(box)}` }, picture);
-    svg("text", { x: LEFT - 5, y: y(at) + 4, "text-anchor": "end" }, picture, at.toFixed(digits));
+    svg("text", { x: LEFT - 5, y: y(at) + 4, "text-anchor": "end" }, picture, figure(at, digits));
   }
   for (const { values, colour, dashed } of lines) {
     svg("path", { class: `line ${colour}${dashed ? " dashed" : ""}`, d: way(box, values, y) }, picture);
@@ -168,7 +168,9 @@ function add(title, height, keys, draw, note) {
   listen(box);
 }
 
-const numbers = (value) => (value === null || value === undefined ? "–" : value.toFixed(Math.abs(value) >= 100 ? 1 : 2));
+// Zero has no sign, also where it is rounded to.
+const figure = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "");
+const numbers = (value) => (value === null || value === undefined ? "–" : figure(value, Math.abs(value) >= 100 ? 1 : 2));
 const readers = []; // for each plot, what is said at an index and a time
 
 for (const { title, height, lines } of series.plots) {

@@ -13,6 +13,10 @@ const GO_AGAIN = 8000;
 // A scroll that begins this long after a wheel, a finger or a key is theirs, in milliseconds.
 const SCROLLS = 500;
 
+// What it does while an operator and no plan says so.
+const BY_HAND = { hold: "holding", sticks: "flown by hand", target: "flying to the place that was chosen", setpoints: "following a program" };
+const TAKEN = /^(.*) has taken/;
+
 let flight = null; // sent first
 let status = null;
 let readiness = null; // whether the vehicle could take off
@@ -190,7 +194,8 @@ for (const lines of [$("events"), $("decisions")]) {
 
 function addEvent(message) {
   const command = message.command ? `: ${message.command}` : "";
-  line("events", message.t_s, (message.text ?? message.type) + command, message.warning);
+  const text = message.text ?? message.type;
+  line("events", message.t_s, text.replace(TAKEN, (all, who) => `${who === me ? "this page" : who} has taken`) + command, message.warning);
 }
 
 function decide(message) {
@@ -346,7 +351,7 @@ function drawDoing() {
   const step = status.step === null ? null : flight.steps[status.step];
   const following = status.step === null ? null : flight.steps[status.step + 1];
   let [now, next] = [status.phase, ""];
-  if (status.phase === "flying" && status.manual) [now, next] = [status.manual === "hold" ? "holding" : `by hand: ${status.manual}`, "the mission is paused: Resume goes on with it"];
+  if (status.phase === "flying" && status.manual) [now, next] = [BY_HAND[status.manual], "the mission is paused: Resume goes on with it"];
   else if (status.phase === "flying" && status.mission_waits) [now, next] = ["holding", "the mission is paused: Resume goes on with it"];
   else if (step && status.phase === "flying") {
     const far = status.distance_m === null ? "" : `, ${status.distance_m.toFixed(1)} m to go`;

@@ -18,6 +18,9 @@ const plots = (() => {
     ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000], 0, true],
   ];
 
+  // Zero has no sign, also where it is rounded to.
+  const figure = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "");
+
   let rows = []; // [time, a list of values for each plot]
   let drawn = 0;
   let paused = null; // the rows that are looked at meanwhile
@@ -111,7 +114,7 @@ const plots = (() => {
       context.moveTo(LEFT, y(value));
       context.lineTo(width, y(value));
       context.stroke();
-      context.fillText(value.toFixed(high - low < 10 ? 1 : 0), 0, Math.max(10, Math.min(height - 2, y(value) + 4)));
+      context.fillText(figure(value, high - low < 10 ? 1 : 0), 0, Math.max(10, Math.min(height - 2, y(value) + 4)));
     }
     for (let time = Math.ceil((end - SHOWN) / 10) * 10; time <= end; time += 10) {
       if (time < 0 || x(time) > width - 20) continue;
@@ -128,7 +131,7 @@ const plots = (() => {
     now.replaceChildren(...names.map((name, line) => {
       const label = document.createElement("b");
       label.className = `line${line}`;
-      label.textContent = `${names.length > 1 ? `${name} ` : ""}${Number.isFinite(last[line]) ? last[line].toFixed(digits) : "–"} `;
+      label.textContent = `${names.length > 1 ? `${name} ` : ""}${Number.isFinite(last[line]) ? figure(last[line], digits) : "–"} `;
       return label;
     }));
     names.forEach((_, line) => {
