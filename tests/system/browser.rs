@@ -145,6 +145,8 @@ fn the_page_shows_the_flight_and_orders_it() {
         &tab,
         "document.querySelector('#events').innerText.includes('flying to a manual target')",
     );
+    let now = "document.querySelector('#now').textContent";
+    chromium.wait(&tab, &format!("{now} === 'flying to the place that was chosen'"));
     chromium.wait(
         &tab,
         "document.querySelector('#events').innerText.includes('manual target reached')",

@@ -339,6 +339,7 @@ fn pages_hand_over_the_controls() {
     }
     chromium.click(&second, "#take", [0.0; 2]);
     chromium.wait(&second, &format!("{who} === 'you' && !status.mission_waits"));
+    happened(&mut chromium, &second, "this page has taken the controls");
     chromium.show(&first);
     chromium.wait(&first, "isWatching()");
     happened(&mut chromium, &first, "has taken the controls");
