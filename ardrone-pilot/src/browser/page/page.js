@@ -15,7 +15,6 @@ const SCROLLS = 500;
 
 // What it does while an operator and no plan says so.
 const BY_HAND = { hold: "holding", sticks: "flown by hand", target: "flying to the place that was chosen", setpoints: "following a program" };
-const TAKEN = /^(.*) has taken/;
 
 let flight = null; // sent first
 let status = null;
@@ -194,8 +193,8 @@ for (const lines of [$("events"), $("decisions")]) {
 
 function addEvent(message) {
   const command = message.command ? `: ${message.command}` : "";
-  const text = message.text ?? message.type;
-  line("events", message.t_s, text.replace(TAKEN, (all, who) => `${who === me ? "this page" : who} has taken`) + command, message.warning);
+  const text = (message.text ?? message.type).replace(`${me} has taken`, "this page has taken");
+  line("events", message.t_s, text + command, message.warning);
 }
 
 function decide(message) {
