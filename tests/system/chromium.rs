@@ -21,6 +21,8 @@ pub(crate) struct Chromium {
     calls: u64,
     /// The key that is held.
     held: Option<String>,
+    /// A frame with a process of its own that it is attached to, by its target.
+    frame: Option<(Value, Tab)>,
     _profile: tempfile::TempDir,
 }
 
@@ -61,7 +63,7 @@ impl Chromium {
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
-        Some(Self { child, socket, calls: 0, held: None, _profile: profile })
+        Some(Self { child, socket, calls: 0, held: None, frame: None, _profile: profile })
     }
 
     fn call(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {
@@ -138,10 +140,41 @@ impl Chromium {
         while self.evaluate(tab, condition) != json!(true) {
             if start.elapsed() > PATIENCE {
                 let page = self.evaluate(tab, "document.body.innerText");
-                panic!("never so: {condition}\n{page}");
+                // The text of a page is long, and in JSON it is one line.
+                panic!("never so: {condition}: {page}");
             }
             std::thread::sleep(Duration::from_millis(50));
         }
+    }
+
+    /// Waits until the frame of a page has the focus if the page says so, and else has not. One with a process of its own
+    /// takes it, and gives it back, a moment later than the page; a key in between goes astray.
+    pub(crate) fn wait_for_focus(&mut self, tab: &Tab) {
+        let start = Instant::now();
+        loop {
+            let inside = "document.activeElement instanceof HTMLIFrameElement";
+            let inside = self.evaluate(tab, inside) == json!(true);
+            let Some(frame) = self.frame() else { return };
+            if (self.evaluate(&frame, "document.hasFocus()") == json!(true)) == inside {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "the focus is inside: {inside}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// The frame with a process of its own, if there is one in any tab.
+    fn frame(&mut self) -> Option<Tab> {
+        let targets = self.call(None, "Target.getTargets", &json!({}));
+        let targets = targets["targetInfos"].as_array().unwrap();
+        let target = targets.iter().find(|target| target["type"] == "iframe")?["targetId"].clone();
+        if self.frame.as_ref().is_none_or(|(known, _)| *known != target) {
+            let attach = json!({ "targetId": target, "flatten": true });
+            let session = self.call(None, "Target.attachToTarget", &attach);
+            let frame = Tab(session["sessionId"].as_str().unwrap().to_owned());
+            self.frame = Some((target, frame));
+        }
+        self.frame.as_ref().map(|(_, frame)| frame.clone())
     }
 
     /// Shows a tab that another one has covered.

@@ -24,7 +24,12 @@ struct Keyboard<'a> {
 
 impl Keyboard<'_> {
     fn key(&mut self, key: &str) {
-        self.chromium.type_key(&self.tab, key, 0);
+        self.strike(key, 0);
+    }
+
+    fn strike(&mut self, key: &str, modifiers: u32) {
+        self.chromium.wait_for_focus(&self.tab);
+        self.chromium.type_key(&self.tab, key, modifiers);
     }
 
     /// Writes a text key by key.
@@ -54,7 +59,8 @@ impl Keyboard<'_> {
         );
         let mut stops = Vec::new();
         for _ in 0..150 {
-            self.chromium.type_key(&self.tab, "Tab", modifiers);
+            self.strike("Tab", modifiers);
+            self.chromium.wait_for_focus(&self.tab);
             let now = self.chromium.evaluate(&self.tab, &stop);
             assert_eq!(now["seen"], true, "the focus is not seen: {now}");
             if now["found"] == true {
@@ -130,7 +136,7 @@ fn a_plan_is_made(person: &mut Keyboard<'_>) {
     person.write("by keys");
     // Written, undone, and done again.
     person.to("plantext");
-    person.chromium.type_key(&person.tab, "a", CTRL);
+    person.strike("a", CTRL);
     person.write("takeoff\ngoto 1 0 0 0\nland\n");
     person
         .wait("plan.targets().length === 1 && plan.text() === 'takeoff\\ngoto 1 0 0 0\\nland\\n'");
@@ -139,7 +145,7 @@ fn a_plan_is_made(person: &mut Keyboard<'_>) {
         let wanted = format!("plan.text().includes('{target}')");
         while person.chromium.evaluate(&person.tab, &wanted) != true {
             let before = person.text("plan.text()");
-            person.chromium.type_key(&person.tab, letter, CTRL);
+            person.strike(letter, CTRL);
             assert_ne!(person.text("plan.text()"), before, "Ctrl-{letter} does nothing more");
         }
     }
