@@ -6,7 +6,7 @@ use crate::lexer::refused;
 use crate::parser::{parse, parse_header};
 use crate::refused::{Refused, Rule};
 use crate::tree::{Definition, Function, Item, Type, Unit};
-use crate::types::{Named, Ty, basic, spelling};
+use crate::types::{Named, Ty, Typed, basic, integer, spelling};
 
 /// A function's types.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,6 +34,10 @@ pub(crate) struct Language {
     pub(crate) structs: HashMap<String, Vec<(String, Ty)>>,
     /// The type of each enumerator.
     pub(crate) enumerators: HashMap<String, String>,
+    /// Constants of the generated headers: `#define PEER_LEADER 0U`.
+    pub(crate) constants: HashMap<String, Typed>,
+    /// Other names of numeric types in the generated headers: `typedef uint8_t peer_t;`.
+    aliases: HashMap<String, Ty>,
     enums: HashSet<String>,
     /// Names of types that are declared nowhere else: those of the environment's headers.
     opaque: HashSet<String>,
@@ -49,6 +53,7 @@ impl Language {
     pub(crate) fn new(c: &str, headers: &[&str]) -> Result<Self, Refused> {
         let mut language = Self::default();
         for header in headers {
+            language.learn_lines(header);
             for item in parse_header(header)?.items {
                 match item {
                     Item::Definition(name, definition) => {
@@ -92,6 +97,22 @@ impl Language {
         Ok(language)
     }
 
+    /// Keeps constants and other names of types, each of which has a line of its own.
+    fn learn_lines(&mut self, header: &str) {
+        for line in header.lines() {
+            let words: Vec<&str> = line.trim_end_matches(';').split(' ').collect();
+            match words.as_slice() {
+                ["#define", name, value] => {
+                    self.constants.extend(integer(value).map(|value| ((*name).to_owned(), value)));
+                }
+                ["typedef", words, name] => {
+                    self.aliases.extend(basic(words).map(|ty| ((*name).to_owned(), ty)));
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// Names of all types, also those that the generated C defines, which are found by their form: `} event_t;`.
     fn with_definitions(&self, c: &str) -> Result<HashSet<String>, Refused> {
         let tokens = crate::lexer::tokens(c)?;
@@ -101,7 +122,8 @@ impl Language {
 
     /// Names that begin a type.
     pub(crate) fn types(&self) -> HashSet<String> {
-        let own = self.structs.keys().chain(&self.enums).chain(self.opaque.iter());
+        let own = self.structs.keys().chain(&self.enums).chain(&self.opaque);
+        let own = own.chain(self.aliases.keys());
         let integers = [8, 16, 32, 64]
             .into_iter()
             .flat_map(|bits| [format!("int{bits}_t"), format!("uint{bits}_t")]);
@@ -139,6 +161,7 @@ impl Language {
     fn learn(&mut self, ctype: &Type) {
         let words = ctype.words.join(" ");
         let known = basic(&words).is_some()
+            || self.aliases.contains_key(&words)
             || self.structs.contains_key(&words)
             || self.enums.contains(&words);
         if !known {
@@ -174,6 +197,7 @@ impl Language {
         let name = spelling(ctype);
         let wrong = || refused(&name, ctype.place, Rule::Type);
         let plain = basic(&words)
+            .or_else(|| self.aliases.get(&words).cloned())
             .or_else(|| self.structs.contains_key(&words).then(|| Ty::Struct(words.clone())))
             .or_else(|| self.enums.contains(&words).then(|| Ty::Enum(words.clone())))
             .or_else(|| self.opaque.contains(&words).then(|| Ty::Opaque(words.clone())));

@@ -44,11 +44,11 @@ pub(crate) fn parse(text: &str, types: &HashSet<String>) -> Parsed<Unit> {
 
 /// Parses a generated header, which declares what it names.
 pub(crate) fn parse_header(text: &str) -> Parsed<Unit> {
-    // Its preprocessor lines need not be known: it is no input.
-    let text: String = text
-        .lines()
-        .map(|line| if line.starts_with('#') { "\n".to_owned() } else { format!("{line}\n") })
-        .collect();
+    // Its preprocessor lines need not be known: it is no input. Other names of types are known from their lines.
+    let is_left_out =
+        |line: &str| line.starts_with('#') || (line.starts_with("typedef ") && line.ends_with(';'));
+    let lines = text.lines().map(|line| if is_left_out(line) { "" } else { line });
+    let text = lines.collect::<Vec<_>>().join("\n");
     Parser::new(&text, &HashSet::new(), true)?.unit()
 }
 

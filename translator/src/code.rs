@@ -83,6 +83,7 @@ codes! {
     Error NotTriggerable "not-triggerable" "an event that the environment does not, or cannot, raise";
     Error NotSettable "not-settable" "a perceived belief that the environment does not set";
     Error NotPreemptive "not-preemptive" "a pre-empting event that is not a goal";
+    Error NeverSent "never-sent" "a source that never tells the belief or asks for the goal";
     Error ComparedUnbelieved "compared-unbelieved" "a property that compares a belief that is never held";
     Warning UnseenFailure "unseen-failure" "failure plans that do not handle later failures of their goal";
     Warning NoPlan "no-plan" "goals that may find no plan and have no failure plan";

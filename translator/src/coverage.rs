@@ -97,6 +97,7 @@ impl Origins {
         match value {
             Value::Variable(id) => self.origins[id.0].clone(),
             Value::Constant(text, _) => Some(text.clone()),
+            Value::Me => Some("me".to_owned()),
             Value::Negate(operand) => Some(format!("-({})", self.text(operand)?)),
             Value::Arithmetic(_) | Value::Call(_) => None,
         }

@@ -466,6 +466,7 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
             check(&ctype.name, ctype.kind, &predicate.span);
         }
     }
+    // A message declares its belief or goal, which is checked among those.
     findings
 }
 
@@ -491,6 +492,18 @@ fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic
     for trigger in &configuration.triggerables {
         let name = program::trigger_name(trigger.operator, trigger.kind, &trigger.name.text);
         check("Agent", snake_case(&name), &trigger.name, false);
+    }
+    for (name, _, message) in configuration.receiving() {
+        check("Agent", snake_case(&name), &message.name, false);
+    }
+    for action in configuration.sending() {
+        check("Environment", snake_case(&action.name.text), &action.name, false);
+    }
+    for peer in &configuration.peers {
+        check("Peer", camel_case(&peer.text), peer, false);
+    }
+    if let Some(first) = configuration.peers.first() {
+        check("", "Peer".to_owned(), first, false);
     }
     for declared in &configuration.structs {
         const KNOWN: &str = "Agent Beliefs Environment State Loan Self Box Send Sync Copy Clone Debug PartialEq Default \

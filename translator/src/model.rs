@@ -117,6 +117,18 @@ impl Model {
                 let belief = self.program.beliefs.get(first?)?;
                 at(0, None, format!("the environment sets `{}`", belief.name))
             }
+            "asks" | "unasks" => {
+                let asked = self.program.asked.get(first?)?;
+                let peer = &self.program.configuration.peers.get(asked.sender)?.text;
+                let what = if what == "asks" { "asks for" } else { "no longer asks for" };
+                at(0, None, format!("{peer} {what} `{}`", asked.name))
+            }
+            "tells" | "untells" => {
+                let told = self.program.told.get(first?)?;
+                let peer = &self.program.configuration.peers.get(told.sender)?.text;
+                let what = if what == "tells" { "tells" } else { "takes back" };
+                at(0, None, format!("{peer} {what} `{}`", told.name))
+            }
             "event" => at(1, None, format!("handles {}", self.event(first?)?)),
             "plan" => {
                 let (_, _, plan) = self.program.plans().nth(first?)?;
@@ -144,6 +156,16 @@ impl Model {
             Waiting::Posted(id) => handler(*id),
             Waiting::Overdue(id) => format!("the deadline of {}", handler(*id)),
             Waiting::Perceived(_, id) => format!("{}, which was perceived", handler(*id)),
+            Waiting::Asked(index) => {
+                let asked = self.program.asked.get(*index)?;
+                let peer = &self.program.configuration.peers.get(asked.sender)?.text;
+                format!("+!{}[source({peer})]", asked.name)
+            }
+            Waiting::Told(index) => {
+                let told = self.program.told.get(*index)?;
+                let peer = &self.program.configuration.peers.get(told.sender)?.text;
+                format!("what {peer} said of `{}`", told.name)
+            }
             Waiting::External(index) => {
                 let external = self.program.external.get(*index)?;
                 trigger_text(external.operator, external.kind, &external.name)

@@ -42,6 +42,36 @@ pub(crate) struct Program {
     /// Events of the environment.
     pub(crate) external: Vec<External>,
     pub(crate) initial_goal: Option<(HandlerId, Vec<Value>)>,
+    /// What peers tell.
+    pub(crate) told: Vec<Told>,
+    /// What peers ask to be achieved.
+    pub(crate) asked: Vec<Asked>,
+}
+
+/// A belief that one peer tells: it has a slot of its own, in which the newest counts.
+#[derive(Debug)]
+pub(crate) struct Told {
+    /// The name of the message.
+    pub(crate) name: String,
+    /// The number of the peer.
+    pub(crate) sender: usize,
+    pub(crate) belief: BeliefId,
+    /// Plans of `+b`.
+    pub(crate) added: Option<HandlerId>,
+    /// Plans of `-b`.
+    pub(crate) removed: Option<HandlerId>,
+}
+
+/// A goal that one peer asks for: those that wait are served in their order.
+#[derive(Debug)]
+pub(crate) struct Asked {
+    /// The name of the message.
+    pub(crate) name: String,
+    /// The number of the peer.
+    pub(crate) sender: usize,
+    pub(crate) handler: HandlerId,
+    /// How many may wait.
+    pub(crate) room: usize,
 }
 
 /// Index into [`Program::handlers`].
@@ -91,6 +121,8 @@ pub(crate) struct Handler {
     /// Whether this is the rest of a plan that waits. If the goal has failure plans, its arguments come
     /// first.
     pub(crate) resumed: bool,
+    /// Whether the last argument is the peer that caused the event.
+    pub(crate) sourced: bool,
 }
 
 /// An event of the environment.
@@ -217,6 +249,14 @@ pub(crate) enum Step {
         handler: HandlerId,
         values: Vec<Value>,
     },
+    /// `.broadcast`: the action for each peer but oneself, which is its first argument.
+    Broadcast {
+        basic: BasicId,
+        /// The arguments behind the peer.
+        values: Vec<Value>,
+        /// The number of other peers.
+        receivers: usize,
+    },
     /// `?b`: asks the beliefs, then the plans.
     Ask {
         belief: BeliefId,
@@ -241,6 +281,8 @@ pub(crate) enum Value {
     Variable(VariableId),
     /// A C constant.
     Constant(String, CType),
+    /// The peer that the agent is.
+    Me,
     Call(Call),
     /// Sign change of a floating-point value; for integers it is a subtraction.
     Negate(Box<Self>),
@@ -297,7 +339,7 @@ impl Value {
     /// Whether evaluating it can fail.
     pub(crate) fn can_fail(&self) -> bool {
         match self {
-            Self::Variable(_) | Self::Constant(..) => false,
+            Self::Variable(_) | Self::Constant(..) | Self::Me => false,
             Self::Call(call) => call.arguments.iter().any(Self::can_fail),
             Self::Negate(operand) => operand.can_fail(),
             Self::Arithmetic(operation) => {
@@ -320,7 +362,7 @@ impl Value {
     /// Effects of the evaluation, in order.
     fn effects(&self, effects: &mut Vec<Effect>) {
         match self {
-            Self::Variable(_) | Self::Constant(..) => {}
+            Self::Variable(_) | Self::Constant(..) | Self::Me => {}
             Self::Call(call) => call.effects(effects),
             Self::Negate(operand) => operand.effects(effects),
             Self::Arithmetic(operation) => {
@@ -391,6 +433,12 @@ impl Step {
         match self {
             Self::Action(call) => call.effects(&mut effects),
             Self::Assign { value, .. } => value.effects(&mut effects),
+            Self::Broadcast { basic, values, receivers } => {
+                for value in values {
+                    value.effects(&mut effects);
+                }
+                effects.extend(std::iter::repeat_n(Effect::Call(*basic), *receivers));
+            }
             Self::Add { values, .. }
             | Self::Achieve { values, .. }
             | Self::Defer { values, .. } => {
@@ -426,6 +474,7 @@ impl Step {
         match self {
             Self::Achieve { values, .. }
             | Self::Add { values, .. }
+            | Self::Broadcast { values, .. }
             | Self::Defer { values, .. } => values_fail(values),
             Self::Action(call) => values_fail(&call.arguments),
             Self::Assign { value, .. } => value.can_fail(),
@@ -475,6 +524,16 @@ impl Program {
         })
     }
 
+    /// The constant of a peer in C.
+    pub(crate) fn peer(&self, number: usize) -> String {
+        peer_constant(&self.configuration.peers[number].text)
+    }
+
+    /// Whether the agent is one of several that talk.
+    pub(crate) fn has_peers(&self) -> bool {
+        !self.configuration.peers.is_empty()
+    }
+
     pub(crate) fn belief(&self, id: BeliefId) -> &Belief {
         &self.beliefs[id.0]
     }
@@ -503,6 +562,7 @@ impl Program {
                 && external.name == belief.name
         };
         self.external.iter().any(takes_back)
+            || self.told.iter().any(|told| std::ptr::eq(self.belief(told.belief), belief))
             || self.plans().any(|(_, _, plan)| plan.steps().any(deletes))
     }
 
@@ -549,6 +609,11 @@ impl Program {
             })
             .collect()
     }
+}
+
+/// `PEER_LEADER`
+pub(crate) fn peer_constant(name: &str) -> String {
+    format!("PEER_{}", name.to_ascii_uppercase())
 }
 
 /// `achieve_goto`, `add_battery`: a trigger in generated names.

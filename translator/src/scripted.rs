@@ -2,6 +2,7 @@
 
 use crate::configuration::ExternalTrigger;
 use crate::interpreter::Value;
+use crate::syntax::ast::Performative;
 
 pub use crate::backend::c::traced;
 
@@ -15,6 +16,10 @@ pub enum Act {
     Raise(ExternalTrigger, Vec<Value>),
     /// It sets a belief.
     Set(String, Vec<Value>),
+    /// A peer, the first value, says something.
+    Receive(Performative, String, Vec<Value>),
+    /// It begins again, as this peer.
+    Be(usize),
     /// From now on a function returns these values in turn; the last one repeats.
     Answer(String, Vec<Value>),
     /// It drops all events.

@@ -22,6 +22,9 @@ pub(crate) const C_NUMBERS: [&str; 18] = [
     "clock_t",
 ];
 
+/// The type of peers in C.
+const PEER: &str = "peer_t";
+
 /// A C type as named in the configuration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CType {
@@ -106,9 +109,19 @@ impl CType {
         !matches!(self.kind, TypeKind::Void | TypeKind::Text | TypeKind::Opaque)
     }
 
+    /// The type of peers: a number in C, and no number in the agent.
+    pub fn peer() -> Self {
+        Self { name: PEER.to_owned(), kind: TypeKind::Unsigned { bits: 8 } }
+    }
+
+    /// Whether it is the type of peers.
+    pub fn is_peer(&self) -> bool {
+        self.name == PEER && self.kind == TypeKind::Unsigned { bits: 8 }
+    }
+
     /// Whether arithmetic is possible.
     pub fn is_numeric(&self) -> bool {
-        self.is_float() || self.integer_bits().is_some()
+        self.is_float() || (self.integer_bits().is_some() && !self.is_peer())
     }
 
     /// The width of an integer type, and whether it has a sign.

@@ -68,7 +68,8 @@ impl Checker<'_> {
 
     fn named(&mut self, expression: &Expression, name: &str) -> Checked<Typed> {
         let place = expression.place;
-        if let Some(typed) = listed_macro(name) {
+        let constant = || self.language.constants.get(name).cloned();
+        if let Some(typed) = listed_macro(name).or_else(constant) {
             require(!self.macros.contains(name), name, place, Rule::Macro)?;
             return Ok(typed);
         }

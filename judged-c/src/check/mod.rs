@@ -153,6 +153,7 @@ impl Checker<'_> {
         let language = self.language;
         let known = language.functions.contains_key(text)
             || language.enumerators.contains_key(text)
+            || language.constants.contains_key(text)
             || language.types().contains(text)
             || self.functions.contains_key(text)
             || self.scopes.iter().any(|scope| scope.contains_key(text));
@@ -255,7 +256,10 @@ impl Checker<'_> {
     fn constant(&self, initial: &Expression) -> Checked<()> {
         let constant = match &initial.what {
             What::Name(name) => {
-                listed_macro(name).is_some() || self.language.enumerators.contains_key(name)
+                let language = self.language;
+                listed_macro(name).is_some()
+                    || language.enumerators.contains_key(name)
+                    || language.constants.contains_key(name)
             }
             What::Integer(_)
             | What::Float(_)

@@ -4,6 +4,7 @@ use diagnostic::Span;
 
 use super::Analysis;
 use super::constants::integer;
+use super::messages::{check_peers_differ, conjuncts, no_source};
 use super::scope::{Mark, Scope, said_already};
 use super::values::{Resolved, check_equality, check_numeric};
 use crate::code::Code;
@@ -19,19 +20,30 @@ impl Analysis<'_> {
         scope: &mut Scope,
         conjunction: &mut Vec<Condition>,
     ) -> Resolved<()> {
-        match expression {
-            Expression::And(parts) => {
-                for part in parts {
-                    let resolved = self.conditions(part, scope, conjunction);
-                    self.report(resolved);
-                }
-                return Ok(());
-            }
+        self.conjunction(&conjuncts(expression), scope, conjunction)
+    }
+
+    /// As [`Self::conditions`], of several expressions. A single error is returned, others are reported.
+    pub(super) fn conjunction(
+        &mut self,
+        parts: &[&Expression],
+        scope: &mut Scope,
+        conjunction: &mut Vec<Condition>,
+    ) -> Resolved<()> {
+        for (index, part) in parts.iter().enumerate() {
             // `true` adds no condition.
-            Expression::Boolean { value: true, .. } => return Ok(()),
-            _ => {}
+            if matches!(part, Expression::Boolean { value: true, .. }) {
+                continue;
+            }
+            if let Some(told) = self.told(part) {
+                return self.search(told, &parts[index + 1..], scope, conjunction);
+            }
+            let resolved = self.condition(part, scope);
+            match resolved {
+                Err(error) if parts.len() == 1 => return Err(error),
+                resolved => conjunction.extend(self.report(resolved)),
+            }
         }
-        conjunction.push(self.condition(expression, scope)?);
         Ok(())
     }
 
@@ -46,6 +58,7 @@ impl Analysis<'_> {
                 Ok(Condition::Not(inner))
             }
             Expression::Or(parts) => self.alternatives(parts, scope),
+            Expression::MyName { name, span } => self.my_name(name, span, scope),
             Expression::Compare { operator, left, right, span } => {
                 let inferred = self.infer(left, scope).or_else(|| self.infer(right, scope));
                 let Some(ctype) = inferred else {
@@ -68,7 +81,11 @@ impl Analysis<'_> {
                     Relation::Equal | Relation::NotEqual => check_equality(&ctype, span)?,
                     _ => check_numeric(&ctype, span)?,
                 }
-                check_informative(*operator, &left, &right, &ctype, span)?;
+                if ctype.is_peer() {
+                    check_peers_differ(&left, &right, span)?;
+                } else {
+                    check_informative(*operator, &left, &right, &ctype, span)?;
+                }
                 Ok(Condition::Compare { relation: *operator, left, right, ctype })
             }
             Expression::Bind { variable, value, .. } => {
@@ -91,6 +108,9 @@ impl Analysis<'_> {
     }
 
     fn atom_condition(&mut self, atom: &Atom, scope: &mut Scope) -> Resolved<Condition> {
+        if let Some(source) = &atom.source {
+            return Err(no_source(&atom.name.text, source.span()));
+        }
         if !self.declarations.is_basic(&atom.name.text) {
             let types = self.declarations.predicate(atom)?;
             let belief = self.belief_id(&atom.name.text, &types);
@@ -120,32 +140,9 @@ impl Analysis<'_> {
             scope.leave(mark);
             branches.push(branch);
         }
-        let exports = exports(&bound, scope);
+        let exports = scope.exports(&bound);
         Ok(Condition::Any(Alternatives { branches, exports }))
     }
-}
-
-/// Variables that every branch binds to values of one type are visible afterwards.
-fn exports(
-    bound: &[Vec<(String, VariableId)>],
-    scope: &mut Scope,
-) -> Vec<(VariableId, Vec<VariableId>)> {
-    let Some((first, others)) = bound.split_first() else { return Vec::new() };
-    let mut exports = Vec::new();
-    for (name, id) in first {
-        let ctype = scope.variables[id.0].ctype.clone();
-        let same = |(other, other_id): &&(String, VariableId)| {
-            other == name && scope.variables[other_id.0].ctype == ctype
-        };
-        let inner: Option<Vec<VariableId>> =
-            others.iter().map(|branch| branch.iter().find(same).map(|(_, id)| *id)).collect();
-        // A variable that is assigned in branches needs an initial value.
-        if let Some(inner) = inner.filter(|_| ctype.zero().is_some()) {
-            let inner: Vec<VariableId> = std::iter::once(*id).chain(inner).collect();
-            exports.push((scope.export(inner.clone()), inner));
-        }
-    }
-    exports
 }
 
 /// Refuses comparisons with a constant result.

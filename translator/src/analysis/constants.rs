@@ -18,6 +18,7 @@ pub(super) fn constant(
         Err(Code::WrongType.at(message, span.clone()))
     };
     let text = match expression {
+        Expression::Number(number) if ctype.is_peer() => wrong("a number", &number.span),
         Expression::Number(number) => c_number(number, ctype),
         Expression::Boolean { value, span } => match ctype.kind {
             TypeKind::Bool => Ok(value.to_string()),

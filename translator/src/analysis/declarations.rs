@@ -274,6 +274,19 @@ impl Declarations {
         findings.extend(others.iter().map(single));
     }
 
+    /// Whether nothing has this name.
+    pub(super) fn is_free(&self, name: &str) -> bool {
+        self.known(name).is_none()
+    }
+
+    /// The action of this name, whatever its arguments.
+    pub(super) fn basic_named(&self, name: &Name) -> Result<BasicId, Diagnostic> {
+        match self.find(&name.text) {
+            Some(Declared::Basic(id)) => Ok(*id),
+            _ => Err(self.undeclared(name, "basics")),
+        }
+    }
+
     pub(super) fn is_basic(&self, name: &str) -> bool {
         matches!(self.known(name), Some(Declared::Basic(_)))
     }

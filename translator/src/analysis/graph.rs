@@ -44,7 +44,11 @@ impl TriggerGraph {
                     // The rest of a plan that waits is the event of a later step.
                     Formula::Wait { .. } => Some(&from),
                     // A deferred goal is not called, and actions call no plan.
-                    Formula::Defer(_) | Formula::Action(_) | Formula::Assign { .. } => None,
+                    Formula::Defer(_)
+                    | Formula::Action(_)
+                    | Formula::Assign { .. }
+                    | Formula::MyName { .. }
+                    | Formula::Send { .. } => None,
                 };
                 if let Some(to) = target {
                     edge(from, *to);

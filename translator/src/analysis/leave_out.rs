@@ -31,6 +31,12 @@ pub(super) fn leave_out(program: &mut Program, reached: &BTreeSet<HandlerId>) {
     }
     program.beliefs.iter_mut().flat_map(|belief| &mut belief.perceived).for_each(renumber);
     program.external.iter_mut().flat_map(|event| &mut event.handler).for_each(renumber);
+    program
+        .told
+        .iter_mut()
+        .flat_map(|told| told.added.iter_mut().chain(&mut told.removed))
+        .for_each(renumber);
+    program.asked.iter_mut().for_each(|asked| renumber(&mut asked.handler));
     program.initial_goal.iter_mut().for_each(|(handler, _)| renumber(handler));
 }
 
@@ -46,7 +52,7 @@ fn in_plan(plan: &mut Plan, renumber: impl Fn(&mut HandlerId)) {
                 Raise::Nothing => {}
             },
             Step::Ask { plans, .. } => plans.iter_mut().for_each(&renumber),
-            Step::Action(_) | Step::Assign { .. } => {}
+            Step::Action(_) | Step::Assign { .. } | Step::Broadcast { .. } => {}
         }
     }
 }

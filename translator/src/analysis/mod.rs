@@ -8,6 +8,7 @@ pub(crate) mod constants;
 mod declarations;
 mod graph;
 mod leave_out;
+mod messages;
 mod plans;
 mod reach;
 mod scope;
@@ -23,6 +24,7 @@ use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
 use self::leave_out::leave_out;
+use self::messages::{own_beliefs, with_sending};
 use self::reach::{
     Reached, believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
@@ -64,10 +66,14 @@ pub(crate) fn analyse(
     text: &str,
 ) -> (Option<Program>, Findings) {
     let mut findings = Findings::default();
+    let configuration = with_sending(configuration, agent);
     let declarations = Declarations::new(&configuration, instance, &mut findings.configuration);
     let clock = find_clock(&configuration, &mut findings.configuration);
     let mut analysis = Analysis {
         text,
+        configuration: configuration.clone(),
+        own: HashSet::new(),
+        searched: 0,
         clock,
         line_starts: std::iter::once(0)
             .chain(text.match_indices('\n').map(|(newline, _)| newline + 1))
@@ -85,6 +91,7 @@ pub(crate) fn analyse(
         covered: HashSet::new(),
         waits: HashMap::new(),
     };
+    analysis.own = own_beliefs(&analysis.configuration, agent);
     analysis.labels(agent);
     analysis.collect_triggers(agent);
     let graph = TriggerGraph::new(agent);
@@ -96,6 +103,7 @@ pub(crate) fn analyse(
     let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
     analysis.settables(&configuration);
     let external = analysis.external(&configuration);
+    let (told, asked) = analysis.messages();
     analysis.compared_beliefs(&configuration);
     let settings = &configuration.settings;
     let named = settings.trace.iter().chain(&settings.clock);
@@ -115,6 +123,8 @@ pub(crate) fn analyse(
         .iter()
         .filter_map(|event| event.handler)
         .chain(beliefs.iter().filter_map(|belief| belief.perceived))
+        .chain(told.iter().flat_map(|told| told.added.into_iter().chain(told.removed)))
+        .chain(asked.iter().map(|asked| asked.handler))
         .chain(initial_goal.as_ref().map(|(handler, _)| *handler))
         .collect();
     let Reached { handlers: reached, mut posted, deferred, limited } = reach(&handlers, &roots);
@@ -122,7 +132,7 @@ pub(crate) fn analyse(
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
     let events: Vec<HandlerId> = roots.iter().chain(&posted).chain(&deferred).copied().collect();
     warn_unreachable(&handlers, &reached, &mut findings.agent);
-    let believable = believable(&beliefs, &handlers, &external);
+    let believable = believable(&beliefs, &handlers, &external, &told);
     warn_never_believed(&beliefs, &believable, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
     warn_unseen(&handlers, &reached, &mut findings.agent);
@@ -143,6 +153,8 @@ pub(crate) fn analyse(
         clock,
         external,
         initial_goal,
+        told,
+        asked,
     };
     leave_out(&mut program, &reached);
     (Some(program), findings)
@@ -150,6 +162,12 @@ pub(crate) fn analyse(
 
 struct Analysis<'a> {
     text: &'a str,
+    /// As it is declared, and with the actions that send messages.
+    configuration: Configuration,
+    /// Beliefs that the agent may have by itself, not from a peer.
+    own: HashSet<String>,
+    /// Ways to choose the sources of the context that is being resolved.
+    searched: usize,
     clock: Option<Clock>,
     /// Offset of each line.
     line_starts: Vec<usize>,
@@ -218,7 +236,9 @@ impl Analysis<'_> {
                 continue;
             }
             let name = trigger.atom.name.text.clone();
-            let Some(types) = self.predicate_types(&trigger.atom) else { continue };
+            let Some(mut types) = self.predicate_types(&trigger.atom) else { continue };
+            let sourced = self.configuration.is_sourced(trigger.kind, &name);
+            types.extend(sourced.then(CType::peer));
             let key = (trigger.operator, trigger.kind, name.clone());
             if self.handler_ids.contains_key(&key) {
                 continue;
@@ -234,6 +254,7 @@ impl Analysis<'_> {
                 span: trigger.span.clone(),
                 holes: Vec::new(),
                 resumed: false,
+                sourced,
             });
         }
         for index in 0..self.handlers.len() {
@@ -269,7 +290,7 @@ impl Analysis<'_> {
                 .arguments
                 .iter()
                 .zip(&types)
-                .map(|(term, ctype)| match constant(term, ctype) {
+                .map(|(term, ctype)| match self.initial(term, ctype) {
                     Some(Ok(value)) => Some(value),
                     Some(Err(diagnostic)) => {
                         self.error(diagnostic);
@@ -279,7 +300,7 @@ impl Analysis<'_> {
                         self.error(
                             Code::NotConstant
                                 .at("not a constant", term.span())
-                                .help("initial beliefs are numbers and strings"),
+                                .help("initial beliefs are numbers, strings and names of peers"),
                         );
                         None
                     }
@@ -300,21 +321,34 @@ impl Analysis<'_> {
         }
     }
 
+    /// A constant of an initial belief or goal, which may be a peer.
+    fn initial(&self, term: &ast::Expression, ctype: &CType) -> Option<Result<Value, Diagnostic>> {
+        match term {
+            ast::Expression::Atom(atom) if ctype.is_peer() => {
+                let peer = self.peer_value(atom);
+                peer.filter(|peer| matches!(peer, Value::Constant(..))).map(Ok)
+            }
+            term => constant(term, ctype),
+        }
+    }
+
     fn initial_goal(&mut self, goal: &Atom) -> Option<(HandlerId, Vec<Value>)> {
         let types = self.predicate_types(goal)?;
         let handler = self.goal_handler(goal)?;
         let mut values = Vec::new();
+        let sourced = self.handlers[handler.0].sourced;
         for (term, ctype) in goal.arguments.iter().zip(&types) {
-            match constant(term, ctype) {
+            match self.initial(term, ctype) {
                 Some(Ok(value)) => values.push(value),
                 Some(Err(diagnostic)) => self.error(diagnostic),
-                None => self.error(
-                    Code::NotConstant
-                        .at("not a constant", term.span())
-                        .help("the initial goal's arguments are numbers and strings"),
-                ),
+                None => {
+                    self.error(Code::NotConstant.at("not a constant", term.span()).help(
+                        "the initial goal's arguments are numbers, strings and names of peers",
+                    ));
+                }
             }
         }
+        values.extend(sourced.then_some(Value::Me));
         Some((handler, values))
     }
 

@@ -13,7 +13,7 @@ use super::{Analysis, TriggerKey};
 use crate::code::Code;
 use crate::program::{Handler, HandlerId, Pattern, Placed, Plan, Raise, Step, Value, VariableId};
 use crate::syntax::ast::{
-    self, Agent, Atom, Expression, Formula, Name, Operator, Trigger, TriggerKind,
+    self, Agent, Atom, Expression, Formula, Name, Operator, Performative, Trigger, TriggerKind,
 };
 use crate::types::CType;
 
@@ -246,6 +246,7 @@ impl Analysis<'_> {
             span: atom.span.clone(),
             holes: holes.to_vec(),
             resumed: false,
+            sourced: false,
         });
         id
     }
@@ -261,7 +262,9 @@ impl Analysis<'_> {
         // The arity may be wrong in a later plan of a declared trigger.
         let Some(types) = self.predicate_types(&trigger.atom) else { return };
         let mut scope = Scope::default();
+        self.searched = 0;
         let (mut patterns, answers) = self.trigger_patterns(trigger, &types, holes, &mut scope);
+        patterns.extend(self.source_pattern(&trigger.atom, trigger.kind, &mut scope));
         let mut context = Vec::new();
         if let Some(expression) = &plan.context {
             let resolved = self.conditions(expression, &mut scope, &mut context);
@@ -393,6 +396,9 @@ impl Analysis<'_> {
     }
 
     pub(super) fn report<T>(&mut self, resolved: Resolved<T>) -> Option<T> {
+        // Without what is only warned of, something would be translated that nobody wrote.
+        let is_error = |found: &Diagnostic| found.severity == Severity::Error;
+        debug_assert!(resolved.as_ref().err().is_none_or(is_error), "a warning leaves nothing out");
         resolved.map_err(|diagnostic| self.error(diagnostic)).ok()
     }
 
@@ -456,6 +462,22 @@ impl Analysis<'_> {
                 Ok(Step::Defer { handler, values })
             }
             Formula::Test(atom) => self.ask(atom, graph, scope),
+            Formula::MyName { variable, span } => {
+                self.check_peers(span)?;
+                if scope.lookup(&variable.text).is_some() {
+                    let message = format!("`{}` already has a value", variable.text);
+                    return Err(Code::BoundTwice
+                        .at(message, variable.span.clone())
+                        .help("in a context, `.my_name(P)` also compares"));
+                }
+                Ok(Step::Assign {
+                    variable: scope.bind(variable, &CType::peer()),
+                    value: Value::Me,
+                })
+            }
+            Formula::Send { to, performative, content, .. } => {
+                self.send(to.as_ref(), *performative, content, scope)
+            }
             Formula::Wait { span, .. } => {
                 unreachable!("`body` takes what waits, at {span:?}")
             }
@@ -464,6 +486,11 @@ impl Analysis<'_> {
 
     fn ask(&mut self, atom: &Atom, graph: &TriggerGraph, scope: &mut Scope) -> Resolved<Step> {
         let types = self.declarations.predicate(atom)?;
+        if self.configuration.message(Performative::Tell, &atom.name.text).is_some() {
+            return Err(Code::Unanswerable
+                .at("what peers tell is not asked in a body", atom.span.clone())
+                .help("ask for it in a context, where the rest decides who told it"));
+        }
         let belief = self.belief_id(&atom.name.text, &types);
         check_asked_once(atom, scope)?;
         let patterns = self.question(atom, &types, scope)?;
@@ -535,7 +562,7 @@ impl Analysis<'_> {
 
     fn goal(&mut self, atom: &Atom, scope: &mut Scope) -> Resolved<(HandlerId, Vec<Value>)> {
         let types = self.declarations.predicate(atom)?;
-        let values = self.values(&atom.arguments, &types, scope)?;
+        let mut values = self.values(&atom.arguments, &types, scope)?;
         let name = &atom.name.text;
         let handler =
             self.handler_id(Operator::Add, TriggerKind::Achieve, name).ok_or_else(|| {
@@ -544,6 +571,7 @@ impl Analysis<'_> {
                     .label("this goal could never be achieved")
                     .help(format!("add a plan `+!{name} : context <- body.`"))
             })?;
+        values.extend(self.handlers[handler.0].sourced.then_some(Value::Me));
         Ok((handler, values))
     }
 

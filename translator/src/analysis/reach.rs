@@ -6,7 +6,7 @@ use diagnostic::Diagnostic;
 
 use crate::code::Code;
 use crate::coverage::always_finds_a_plan;
-use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step};
+use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step, Told};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 /// Reachable handlers, and how their plans refer to each other.
@@ -57,7 +57,7 @@ pub(super) fn reach(handlers: &[Handler], roots: &[HandlerId]) -> Reached {
                     }
                 },
                 Step::Ask { plans, .. } => open.extend(*plans),
-                Step::Action(_) | Step::Assign { .. } => {}
+                Step::Action(_) | Step::Assign { .. } | Step::Broadcast { .. } => {}
             }
         }
     }
@@ -89,6 +89,7 @@ pub(super) fn believable(
     beliefs: &[Belief],
     handlers: &[Handler],
     external: &[External],
+    told: &[Told],
 ) -> BTreeSet<BeliefId> {
     let given = beliefs.iter().enumerate();
     let given = given.filter(|(_, belief)| belief.settable || belief.initial.is_some());
@@ -99,7 +100,11 @@ pub(super) fn believable(
         Step::Add { belief, .. } => Some(*belief),
         _ => None,
     });
-    given.chain(raised.filter_map(|event| event.belief)).chain(added).collect()
+    given
+        .chain(told.iter().map(|told| told.belief))
+        .chain(raised.filter_map(|event| event.belief))
+        .chain(added)
+        .collect()
 }
 
 /// Warns of beliefs in a context that nothing can make true.

@@ -145,6 +145,29 @@ impl Scope {
         outer
     }
 
+    /// Variables that every branch binds to values of one type are visible afterwards.
+    pub(super) fn exports(
+        &mut self,
+        bound: &[Vec<(String, VariableId)>],
+    ) -> Vec<(VariableId, Vec<VariableId>)> {
+        let Some((first, others)) = bound.split_first() else { return Vec::new() };
+        let mut exports = Vec::new();
+        for (name, id) in first {
+            let ctype = self.variables[id.0].ctype.clone();
+            let same = |(other, other_id): &&(String, VariableId)| {
+                other == name && self.variables[other_id.0].ctype == ctype
+            };
+            let inner: Option<Vec<VariableId>> =
+                others.iter().map(|branch| branch.iter().find(same).map(|(_, id)| *id)).collect();
+            // A variable that is assigned in branches needs an initial value.
+            if let Some(inner) = inner.filter(|_| ctype.zero().is_some()) {
+                let inner: Vec<VariableId> = std::iter::once(*id).chain(inner).collect();
+                exports.push((self.export(inner.clone()), inner));
+            }
+        }
+        exports
+    }
+
     /// Propagates uses from exported variables to those of the branches. To be called at the end of the plan.
     pub(super) fn settle(&mut self) {
         // A variable is always created after those that it stands for.

@@ -178,6 +178,7 @@ impl Analysis<'_> {
             types: types.clone(),
             plans: Vec::new(),
             resumed: true,
+            sourced: false,
             span: span.clone(),
             holes: Vec::new(),
             ..*original

@@ -5,6 +5,7 @@ use diagnostic::{Diagnostic, Span};
 use super::Analysis;
 use super::constants::constant;
 use super::declarations::check_value_result;
+use super::messages::not_a_peer;
 use super::scope::{Scope, said_already};
 use crate::code::Code;
 use crate::program::{Call, Operation, Pattern, Value};
@@ -41,11 +42,22 @@ impl Analysis<'_> {
             return constant;
         }
         match expression {
+            Expression::Atom(atom) if let Some(peer) = self.peer_value(atom) => {
+                check_type(&CType::peer(), ctype, &atom.name.text, &atom.span)?;
+                Ok(peer)
+            }
             Expression::Variable(name) => {
                 let id = scope.bound(name)?;
                 scope.variables[id.0].used = true;
                 check_type(&scope.variables[id.0].ctype, ctype, &name.text, &name.span)?;
                 Ok(Value::Variable(id))
+            }
+            Expression::Atom(atom)
+                if ctype.is_peer()
+                    && atom.arguments.is_empty()
+                    && self.declarations.is_free(&atom.name.text) =>
+            {
+                Err(not_a_peer(&format!("`{}`", atom.name.text), atom.span.clone()))
             }
             Expression::Atom(atom) => {
                 let call = self.call(atom, scope)?;
@@ -88,6 +100,7 @@ impl Analysis<'_> {
                 let id = scope.lookup(&name.text)?;
                 Some(scope.variables[id.0].ctype.clone())
             }
+            Expression::Atom(atom) if self.peer_value(atom).is_some() => Some(CType::peer()),
             Expression::Atom(atom) => {
                 let (_, basic) = self.declarations.basic(atom).ok()?;
                 Some(basic.result.clone())
@@ -108,7 +121,9 @@ impl Analysis<'_> {
         expected: Option<CType>,
         scope: &mut Scope,
     ) -> Resolved<(Value, CType)> {
-        if let Expression::Atom(atom) = expression {
+        if let Expression::Atom(atom) = expression
+            && self.peer_value(atom).is_none()
+        {
             let (_, basic) = self.declarations.basic(atom)?;
             check_value_result(basic, atom)?;
         }

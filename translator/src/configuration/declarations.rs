@@ -88,7 +88,7 @@ impl Parser<'_> {
     }
 
     /// Names behind commas.
-    fn names(&mut self, first: Name, expected: &str) -> Parsed<Vec<Name>> {
+    pub(super) fn names(&mut self, first: Name, expected: &str) -> Parsed<Vec<Name>> {
         let mut names = vec![first];
         self.scanner.skip_blanks()?;
         while self.scanner.take(",") {
@@ -152,7 +152,8 @@ impl Parser<'_> {
 
     /// Resolves types that are declared in the section `structs`, wherever they are used.
     pub(super) fn resolve_structs(&mut self) {
-        let Configuration { structs, basics, predicates, .. } = &mut self.configuration;
+        let Self { configuration, messages, .. } = self;
+        let Configuration { structs, basics, predicates, .. } = configuration;
         let resolve = |ctype: &mut CType| {
             if structs.iter().any(|declared| declared.name.text == ctype.name) {
                 ctype.kind = TypeKind::Struct;
@@ -164,6 +165,9 @@ impl Parser<'_> {
         }
         for predicate in predicates {
             predicate.parameters.iter_mut().for_each(resolve);
+        }
+        for message in messages {
+            message.parameters.iter_mut().for_each(resolve);
         }
     }
 
@@ -195,7 +199,7 @@ impl Parser<'_> {
         Ok((c_type(&words), name))
     }
 
-    fn parameters(&mut self) -> Parsed<Vec<CType>> {
+    pub(super) fn parameters(&mut self) -> Parsed<Vec<CType>> {
         self.scanner.expect("(")?;
         let mut parameters = Vec::new();
         self.scanner.skip_blanks()?;

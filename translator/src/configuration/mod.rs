@@ -7,6 +7,8 @@
 //! includes { #include <stdbool.h> };
 //! structs { place_t { double x; double y; }; };
 //! basics { void sendLand(void); bool closeEnough(double, double); };
+//! peers { leader, wingman };
+//! messages { tell low from any; achieve inspect(double, double) from leader, 4; };
 //! classes { at_command: sendLand; };
 //! types { position(double, double); land(void); };
 //! settables { position; };
@@ -20,6 +22,7 @@
 
 mod c_type;
 mod declarations;
+mod messages;
 mod outputs;
 mod parser;
 mod properties;
@@ -34,7 +37,7 @@ pub use parser::{SECTIONS, parse};
 pub use properties::{CallBound, Cause, Comparison, Formula, Operand, Property};
 pub use settings::SETTINGS;
 
-use crate::syntax::ast::{Name, Operator, TriggerKind};
+use crate::syntax::ast::{Name, Operator, Performative, TriggerKind};
 use crate::types::CType;
 
 /// A parsed configuration.
@@ -50,6 +53,10 @@ pub struct Configuration {
     pub basics: Vec<Basic>,
     /// Actions that are counted together, such as those that send a command.
     pub classes: Vec<ActionClass>,
+    /// The agents that talk with each other, this one among them.
+    pub peers: Vec<Name>,
+    /// What they say.
+    pub messages: Vec<Message>,
     /// Beliefs and goals with the types of their arguments.
     pub predicates: Vec<Predicate>,
     /// Beliefs with a `set_b` function.
@@ -69,6 +76,63 @@ impl Configuration {
     pub(crate) fn fields(&self, name: &str) -> &[(Name, CType)] {
         let declared = self.structs.iter().find(|declared| declared.name.text == name);
         declared.map_or(&[], |declared| &declared.fields)
+    }
+
+    /// The number of a peer.
+    pub fn peer(&self, name: &str) -> Option<usize> {
+        self.peers.iter().position(|peer| peer.text == name)
+    }
+
+    /// What is said of a belief or a goal.
+    pub fn message(&self, performative: Performative, name: &str) -> Option<&Message> {
+        let declared = performative.declared();
+        let is_it =
+            |message: &&Message| message.performative == declared && message.name.text == name;
+        self.messages.iter().find(is_it)
+    }
+
+    /// The actions that send messages: `send_tell_at(peer, double, double)`.
+    pub fn sending(&self) -> Vec<Basic> {
+        let mut actions = Vec::new();
+        for message in &self.messages {
+            for performative in Performative::ALL {
+                if performative.declared() == message.performative {
+                    actions.push(Basic {
+                        name: Name {
+                            text: sending(performative, &message.name.text),
+                            span: message.name.span.clone(),
+                        },
+                        result: CType::named("void"),
+                        parameters: message.said(performative),
+                        span: message.span.clone(),
+                    });
+                }
+            }
+        }
+        actions
+    }
+
+    /// The functions for messages that arrive: `receive_tell_at`.
+    pub fn receiving(&self) -> Vec<(String, Performative, &Message)> {
+        let mut functions = Vec::new();
+        for message in &self.messages {
+            for performative in Performative::ALL {
+                if performative.declared() == message.performative {
+                    let name = format!("receive_{}_{}", performative.name(), message.name.text);
+                    functions.push((name, performative, message));
+                }
+            }
+        }
+        functions
+    }
+
+    /// Whether the plans of a trigger are told who caused its event.
+    pub(crate) fn is_sourced(&self, kind: TriggerKind, name: &str) -> bool {
+        match kind {
+            TriggerKind::Belief => self.message(Performative::Tell, name).is_some(),
+            TriggerKind::Achieve => self.message(Performative::Achieve, name).is_some(),
+            TriggerKind::Test => false,
+        }
     }
 
     /// Possible paths of each file in `includes`, relative to the folder of the outputs: beside the headers
@@ -231,6 +295,38 @@ pub struct AllBut {
     pub class: Name,
     /// Actions, and classes that are declared before.
     pub but: Vec<Name>,
+}
+
+/// A message that peers may send: `tell at(double, double) from any;`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// [`Performative::Tell`], which can be taken back, or [`Performative::Achieve`], which can, too.
+    pub performative: Performative,
+    /// The belief or goal.
+    pub name: Name,
+    /// The types of its arguments.
+    pub parameters: Vec<CType>,
+    /// Who may send it, as numbers of peers in their order.
+    pub senders: Vec<usize>,
+    /// The senders as they are written; none for `any`.
+    pub named: Vec<Name>,
+    /// How many goals of one sender may wait.
+    pub room: usize,
+    /// The whole declaration.
+    pub span: Span,
+}
+
+/// `send_tell_at`: the action that sends a message.
+pub(crate) fn sending(performative: Performative, name: &str) -> String {
+    format!("send_{}_{name}", performative.name())
+}
+
+impl Message {
+    /// The types of what arrives or is sent: the other peer, and the arguments.
+    pub fn said(&self, performative: Performative) -> Vec<CType> {
+        let arguments = self.parameters.iter().filter(|_| performative.has_arguments());
+        std::iter::once(CType::peer()).chain(arguments.cloned()).collect()
+    }
 }
 
 /// A belief or goal declaration.

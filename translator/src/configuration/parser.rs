@@ -4,17 +4,19 @@ use diagnostic::{Diagnostic, Span, is_printable};
 
 use super::outputs::check_outputs;
 use super::scanner::{Parsed, Scanner, advice};
-use super::{Configuration, ExternalTrigger};
+use super::{Configuration, ExternalTrigger, Message};
 use crate::code::Code;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 
 /// The sections of a configuration.
-pub const SECTIONS: [&str; 11] = [
+pub const SECTIONS: [&str; 13] = [
     "settings",
     "includes",
     "structs",
     "basics",
     "classes",
+    "peers",
+    "messages",
     "types",
     "settables",
     "perceived",
@@ -31,6 +33,7 @@ pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
         scanner: Scanner { text, position },
         configuration: Configuration::default(),
         seen: Vec::new(),
+        messages: Vec::new(),
         settings: text.len()..text.len(),
         diagnostics: Vec::new(),
     };
@@ -42,6 +45,8 @@ pub(super) struct Parser<'a> {
     pub(super) scanner: Scanner<'a>,
     pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
+    /// Messages whose senders may be named behind them.
+    pub(super) messages: Vec<Message>,
     /// Place of the section `settings`, or where it is missing.
     pub(super) settings: Span,
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -65,6 +70,7 @@ impl<'a> Parser<'a> {
         }
         self.declare_trace();
         self.resolve_structs();
+        self.resolve_messages();
         if self.diagnostics.is_empty() {
             self.check_settings();
             self.diagnostics.extend(check_outputs(&self.configuration));
@@ -100,6 +106,9 @@ impl<'a> Parser<'a> {
             return self.includes().map(|()| true);
         }
         self.scanner.skip_blanks()?;
+        if section == "peers" && !self.scanner.rest().starts_with('}') {
+            return self.peers().map(|()| true);
+        }
         while !self.scanner.take("}") {
             if self.scanner.rest().is_empty() {
                 return Err(self.scanner.unexpected("`}`"));
@@ -119,6 +128,7 @@ impl<'a> Parser<'a> {
             "structs" => self.structure(),
             "basics" => self.basic(),
             "classes" => self.class(),
+            "messages" => self.message(),
             "types" => self.predicate(),
             "settables" => {
                 let name = self.scanner.word("a belief")?;

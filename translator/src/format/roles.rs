@@ -63,6 +63,8 @@ impl Walk {
     fn next(&mut self, tokens: &[Token], index: usize, kind: &TokenKind) -> Placed {
         let before = index.checked_sub(1).and_then(|index| tokens.get(index)).map(|t| &t.kind);
         let was = self.expected;
+        let is_internal =
+            was == Expected::Rest && kind == &TokenKind::Dot && begins_condition(before);
         let role = match was {
             Expected::Statement => Role::Statement,
             Expected::Label if self.ends_label(tokens, index) => Role::Trigger,
@@ -70,11 +72,15 @@ impl Walk {
             Expected::Label | Expected::Prefix => Role::Close,
             Expected::Body => Role::Apart,
             Expected::Formula => Role::Formula,
+            Expected::Rest if is_internal && before != Some(&TokenKind::LeftParenthesis) => {
+                Role::Apart
+            }
             Expected::Rest => inside(before, tokens, index, kind),
         };
         self.expected = match kind {
             TokenKind::At => Expected::Label,
             _ if was == Expected::Label && role != Role::Trigger => Expected::Label,
+            _ if is_internal => Expected::Prefix,
             // Otherwise a full stop ends the statement, and a sign is part of an expression.
             _ if was != Expected::Rest && is_mark(kind) => Expected::Prefix,
             TokenKind::Dot => {
@@ -101,6 +107,20 @@ impl Walk {
         }
         false
     }
+}
+
+/// Whether a condition begins behind this token of a context: there a full stop does not end the statement.
+fn begins_condition(before: Option<&TokenKind>) -> bool {
+    matches!(
+        before,
+        Some(
+            TokenKind::Colon
+                | TokenKind::Ampersand
+                | TokenKind::Bar
+                | TokenKind::LeftParenthesis
+                | TokenKind::Not
+        )
+    )
 }
 
 /// Role of a token inside a statement.

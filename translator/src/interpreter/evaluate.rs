@@ -70,6 +70,7 @@ impl Interpreter {
     ) -> Option<Value> {
         match expression {
             Expression::Variable(name) => theta.get(&name.text).cloned(),
+            Expression::Atom(atom) if self.peer_named(atom).is_some() => self.peer_named(atom),
             Expression::Atom(atom) => self.call(atom, theta, environment)?,
             Expression::Negate { operand, .. } => {
                 self.evaluate(operand, ctype, theta, environment)?.negate(ctype)
@@ -116,6 +117,7 @@ impl Interpreter {
     pub(super) fn type_of(&self, expression: &Expression, types: &dyn Types) -> Option<CType> {
         match expression {
             Expression::Variable(name) => types.type_of(&name.text),
+            Expression::Atom(atom) if self.peer_named(atom).is_some() => Some(CType::peer()),
             Expression::Atom(atom) => {
                 let mut basics = self.configuration.basics.iter();
                 let basic = basics.find(|basic| basic.name.text == atom.name.text)?;
@@ -160,7 +162,9 @@ impl Interpreter {
                     bound.push((variable.text.clone(), ctype));
                 }
             }
+            Expression::MyName { name, .. } => bound_peer(name, bound),
             Expression::Atom(atom) if !self.is_basic(&atom.name.text) => {
+                atom.source.iter().for_each(|source| bound_peer(source, bound));
                 for (argument, ctype) in atom.arguments.iter().zip(self.types(&atom.name.text)) {
                     if let Expression::Variable(name) = argument
                         && bound.iter().all(|(other, _)| *other != name.text)
@@ -181,9 +185,8 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
         match expression {
-            Expression::And(parts) => parts
-                .iter()
-                .try_fold(theta.clone(), |theta, part| self.context(part, &theta, environment)),
+            Expression::And(_) => self.conjunction(&conjuncts(expression), theta, environment),
+            told if let Some(atom) = self.told(told) => self.found(atom, &[], theta, environment),
             Expression::Or(parts) => {
                 let mut extended =
                     parts.iter().find_map(|part| self.context(part, theta, environment))?;
@@ -209,6 +212,21 @@ impl Interpreter {
         }
     }
 
+    /// As [`Self::context`], for conditions that must hold together.
+    pub(super) fn conjunction(
+        &self,
+        parts: &[&Expression],
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Substitution> {
+        let Some((first, rest)) = parts.split_first() else { return Some(theta.clone()) };
+        if let Some(atom) = self.told(first) {
+            return self.found(atom, rest, theta, environment);
+        }
+        let theta = self.context(first, theta, environment)?;
+        self.conjunction(rest, &theta, environment)
+    }
+
     /// As [`Self::context`], for a condition without parts.
     fn condition(
         &self,
@@ -224,6 +242,12 @@ impl Interpreter {
                 let (place, order) = (span.clone(), Value::order(&left, &right));
                 environment.decided(Decision::Compared { place, order });
                 Value::compare(*operator, &left, &right).then(|| theta.clone())
+            }
+            Expression::MyName { name, .. } => {
+                let mut theta = theta.clone();
+                let me = self.me();
+                self.match_pattern(name, &me, &CType::peer(), &mut theta, environment)?;
+                Some(theta)
             }
             Expression::Bind { variable, value, .. } => {
                 let ctype = self.type_of(value, theta)?;
@@ -290,5 +314,22 @@ impl Interpreter {
 
     pub(super) fn is_basic(&self, name: &str) -> bool {
         self.configuration.basics.iter().any(|basic| basic.name.text == name)
+    }
+}
+
+/// Adds a variable that stands for a peer.
+fn bound_peer(name: &Expression, bound: &mut Vec<(String, CType)>) {
+    if let Expression::Variable(name) = name
+        && bound.iter().all(|(other, _)| *other != name.text)
+    {
+        bound.push((name.text.clone(), CType::peer()));
+    }
+}
+
+/// The parts of a conjunction, those in parentheses with the others.
+fn conjuncts(expression: &Expression) -> Vec<&Expression> {
+    match expression {
+        Expression::And(parts) => parts.iter().flat_map(conjuncts).collect(),
+        other => vec![other],
     }
 }

@@ -1,6 +1,5 @@
 //! Beliefs and pending events of an interpreted agent.
 
-use super::story::{key_text, with_values};
 use super::{Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
@@ -8,6 +7,14 @@ impl Interpreter {
     /// Current beliefs, by name.
     pub fn beliefs(&self) -> impl Iterator<Item = (&str, &[Value])> {
         self.beliefs.iter().map(|(name, values)| (name.as_str(), values.as_slice()))
+    }
+
+    /// What peers tell at present: the belief, the peer's name, and the values.
+    pub fn told_beliefs(&self) -> impl Iterator<Item = (&str, &str, &[Value])> {
+        let told = self.mail.told();
+        told.filter_map(|(name, sender, values)| {
+            Some((name, self.configuration.peers.get(sender)?.text.as_str(), values))
+        })
     }
 
     /// The values of a belief, if it is held.
@@ -31,18 +38,21 @@ impl Interpreter {
         };
         let mut first: Vec<_> = self.preemptive.iter().collect();
         first.sort_by_key(|event| rank(&event.key));
-        let mut waiting: Vec<String> =
-            first.iter().map(|event| format!("{}, pre-empting", event.text(""))).collect();
-        waiting.extend(self.posted.iter().map(|event| event.text(", posted")));
+        let mut waiting: Vec<String> = first
+            .iter()
+            .map(|event| format!("{}, pre-empting", self.event_text(event, "")))
+            .collect();
+        waiting.extend(self.posted.iter().map(|event| self.event_text(event, ", posted")));
         if let Some(deadline) = &self.deadline {
-            let goal = with_values(&key_text(&deadline.goal), &deadline.arguments);
+            let goal = self.with_source(&deadline.goal, &deadline.arguments);
             waiting.push(format!("the deadline of {goal}, at {}", deadline.due));
         }
         let perceived =
             self.configuration.perceived.iter().filter(|name| self.perceived.contains(&name.text));
         waiting.extend(perceived.map(|name| format!("+{}, perceived", name.text)));
-        waiting.extend(self.inbox.iter().map(|event| event.text(", deferred")));
-        waiting.extend(self.deferred.iter().map(|event| event.text(", deferred")));
+        waiting.extend(self.said());
+        let queued = self.inbox.iter().chain(&self.deferred);
+        waiting.extend(queued.map(|event| self.event_text(event, ", deferred")));
         waiting
     }
 
@@ -55,5 +65,6 @@ impl Interpreter {
             && self.preemptive == other.preemptive
             && self.perceived == other.perceived
             && self.deferred == other.deferred
+            && self.mail == other.mail
     }
 }

@@ -5,6 +5,7 @@
 //! agent that [`crate::translate`] accepts.
 
 mod evaluate;
+mod messages;
 mod mind;
 mod plans;
 mod recursion;
@@ -16,12 +17,15 @@ use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use std::sync::Arc;
 
 use self::evaluate::Substitution;
+use self::messages::Mail;
 use self::recursion::recursive_triggers;
 use self::story::{Limit, Source};
 pub use self::story::{trigger, with_values};
 pub use self::value::Value;
 use crate::configuration::Configuration;
-use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};
+use crate::syntax::ast::{
+    Agent, Atom, Expression, Formula, Operator, Plan, Relation, Trigger, TriggerKind,
+};
 use crate::syntax::parse;
 use crate::types::CType;
 use crate::{CounterexampleStep, ParsedConfiguration};
@@ -156,6 +160,7 @@ pub struct Interpreter {
     /// Changed beliefs whose events are pending.
     perceived: BTreeSet<String>,
     deferred: VecDeque<Event>,
+    mail: Mail,
     unhandled: u32,
     refused: u32,
     aborted: u32,
@@ -185,6 +190,7 @@ impl Interpreter {
             preemptive: Vec::new(),
             perceived: BTreeSet::new(),
             deferred: VecDeque::new(),
+            mail: Mail::default(),
             unhandled: 0,
             refused: 0,
             aborted: 0,
@@ -201,6 +207,7 @@ impl Interpreter {
             .iter()
             .map(|belief| (belief.name.text.clone(), self.constants(belief)))
             .collect();
+        self.mail.reset();
         self.unhandled = 0;
         self.refused = 0;
         self.aborted = 0;
@@ -211,7 +218,7 @@ impl Interpreter {
     pub fn clear(&mut self) {
         self.posted = self.agent.goal.as_ref().map(|goal| Event {
             key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
-            arguments: self.constants(goal),
+            arguments: self.own(TriggerKind::Achieve, &goal.name.text, self.constants(goal)),
             origin: Origin::Agent,
         });
         self.deadline = None;
@@ -219,6 +226,7 @@ impl Interpreter {
         self.preemptive.clear();
         self.perceived.clear();
         self.deferred.clear();
+        self.mail.clear();
     }
 
     /// Whether the next external event will be accepted.
@@ -254,6 +262,9 @@ impl Interpreter {
         arguments: Vec<Value>,
     ) -> Result<(), Refused> {
         let key = (operator, kind, name.to_owned());
+        // A belief is stored without its source.
+        let arguments =
+            if kind == TriggerKind::Achieve { self.own(kind, name, arguments) } else { arguments };
         let event = Event { key, arguments, origin: Origin::Environment };
         let preempts = self.configuration.preemptive.iter().any(|trigger| {
             (trigger.operator, trigger.kind, trigger.name.text.as_str()) == (operator, kind, name)
@@ -305,13 +316,14 @@ impl Interpreter {
             let (operator, kind, name) = event.key.clone();
             if event.is_external() && kind == TriggerKind::Belief {
                 if operator == Operator::Add {
-                    self.beliefs.insert(name, event.arguments.clone());
+                    self.beliefs.insert(name.clone(), event.arguments.clone());
                 } else if let Some(old) = self.beliefs.remove(&name) {
                     // The event has no arguments: its plans get the old values of the belief.
                     event.arguments = old;
                 } else {
                     continue;
                 }
+                event.arguments = self.own(kind, &name, event.arguments);
                 if !self.has_plans(&event.key) {
                     continue;
                 }
@@ -375,8 +387,12 @@ impl Interpreter {
                 && let Some(arguments) = self.beliefs.get(&name.text).cloned()
             {
                 let key = (Operator::Add, TriggerKind::Belief, name.text.clone());
+                let arguments = self.own(TriggerKind::Belief, &name.text, arguments);
                 return Some(Event { key, arguments, origin: Origin::Agent });
             }
+        }
+        if let Some(event) = self.next_message() {
+            return Some(event);
         }
         self.inbox.pop_front().or_else(|| self.deferred.pop_front())
     }
@@ -417,7 +433,11 @@ impl Interpreter {
 
     fn constants(&self, atom: &Atom) -> Vec<Value> {
         let pairs = atom.arguments.iter().zip(self.types(&atom.name.text));
-        pairs.filter_map(|(expression, ctype)| Value::constant(expression, &ctype)).collect()
+        let value = |expression: &Expression, ctype: &CType| match expression {
+            Expression::Atom(atom) => self.peer_named(atom),
+            other => Value::constant(other, ctype),
+        };
+        pairs.filter_map(|(expression, ctype)| value(expression, &ctype)).collect()
     }
 
     fn types(&self, predicate: &str) -> Vec<CType> {

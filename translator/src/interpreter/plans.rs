@@ -7,8 +7,9 @@ use super::{
     Deadline, Decision, Environment, Event, Interpreter, Key, Origin, Outcome, Value, Waiting,
     key_of,
 };
+use crate::configuration::sending;
 use crate::syntax::ast::{
-    Arithmetic, Atom, Expression, Formula, Operator, Plan, Relation, TriggerKind,
+    Arithmetic, Atom, Expression, Formula, Operator, Performative, Plan, Relation, TriggerKind,
 };
 use crate::types::CType;
 
@@ -82,7 +83,7 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Outcome {
         let agent = Arc::clone(&self.agent);
-        let types = self.types(&key.2);
+        let types = self.event_types(key);
         for plan in agent.plans.iter().filter(|plan| key_of(&plan.trigger) == *key) {
             if !self.limit.spend() {
                 return Outcome::Failed;
@@ -110,8 +111,11 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
         let mut theta = Substitution::default();
-        let patterns = &plan.trigger.atom.arguments;
-        for ((pattern, value), ctype) in patterns.iter().zip(arguments).zip(types) {
+        let Atom { arguments: patterns, source, .. } = &plan.trigger.atom;
+        let any = Expression::Unnamed(plan.trigger.span.clone());
+        let source = source.as_deref().unwrap_or(&any);
+        let patterns = patterns.iter().chain([source]);
+        for ((pattern, value), ctype) in patterns.zip(arguments).zip(types) {
             if let Some(value) = value {
                 self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
             } else if let Expression::Variable(name) = pattern {
@@ -177,6 +181,12 @@ impl Interpreter {
             Formula::Action(atom) => {
                 self.call(atom, theta, environment)?;
             }
+            Formula::MyName { variable, .. } => {
+                theta.bind(&variable.text, &CType::peer(), self.me());
+            }
+            Formula::Send { to, performative, content, .. } => {
+                self.send(to.as_ref(), *performative, content, theta, environment)?;
+            }
             Formula::Assign { variable, value } => {
                 let asked = || theta.asked(&variable.text);
                 let ctype = self.type_of(value, theta).or_else(asked)?;
@@ -208,6 +218,7 @@ impl Interpreter {
                 let arguments = self.arguments(goal, theta, environment)?;
                 self.log_formula("!", goal, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, goal.name.text.clone());
+                let arguments = self.own(key.1, &key.2, arguments);
                 if self.recursive.contains(&key) {
                     if let Some(deadline) = deadline {
                         let due = self.due(deadline, theta, environment)?;
@@ -227,11 +238,35 @@ impl Interpreter {
                 let arguments = self.arguments(atom, theta, environment)?;
                 self.log_formula("!!", atom, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, atom.name.text.clone());
+                let arguments = self.own(key.1, &key.2, arguments);
                 self.defer(key, arguments);
             }
             Formula::Test(atom) => self.test(atom, theta, environment)?,
             // The wait is over.
             Formula::Wait { .. } => {}
+        }
+        Some(())
+    }
+
+    /// Sends a message to one peer, or to all others in their order.
+    fn send(
+        &self,
+        to: Option<&Expression>,
+        performative: Performative,
+        content: &Atom,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<()> {
+        let to = match to {
+            Some(to) => vec![self.evaluate(to, &CType::peer(), theta, environment)?],
+            None => self.other_peers(),
+        };
+        let arguments = self.arguments(content, theta, environment)?;
+        let action = sending(performative, &content.name.text);
+        for peer in to {
+            let values: Vec<Value> = std::iter::once(peer).chain(arguments.clone()).collect();
+            environment.call(&action, &values, &CType::named("void"));
+            self.log_sent(&action, content, &values, environment);
         }
         Some(())
     }
@@ -269,6 +304,7 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<()> {
         let key = (operator, TriggerKind::Belief, name.to_owned());
+        let arguments = self.own(key.1, name, arguments);
         if self.recursive.contains(&key) {
             self.posted = Some(Event { key, arguments, origin: Origin::Agent });
             return Some(());

@@ -28,7 +28,11 @@ pub(super) fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
                 Formula::Add(atom) => (Operator::Add, TriggerKind::Belief, atom),
                 Formula::Delete(atom) => (Operator::Delete, TriggerKind::Belief, atom),
                 Formula::Test(atom) => (Operator::Add, TriggerKind::Test, atom),
-                Formula::Action(_) | Formula::Assign { .. } | Formula::Defer(_) => continue,
+                Formula::Action(_)
+                | Formula::Assign { .. }
+                | Formula::Defer(_)
+                | Formula::MyName { .. }
+                | Formula::Send { .. } => continue,
             };
             targets.insert((target.0, target.1, target.2.name.text.clone()));
         }

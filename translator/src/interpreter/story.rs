@@ -100,20 +100,30 @@ pub(super) fn key_text(key: &Key) -> String {
     trigger_text(key.0, key.1, &key.2)
 }
 
-impl Event {
+impl Interpreter {
     /// The event in AgentSpeak, with its cause.
-    pub(super) fn text(&self, posted: &str) -> String {
-        let head = with_values(&key_text(&self.key), &self.arguments);
-        match &self.origin {
+    pub(super) fn event_text(&self, event: &Event, posted: &str) -> String {
+        let head = self.with_source(&event.key, &event.arguments);
+        match &event.origin {
             Origin::Agent => format!("{head}{posted}"),
             Origin::Environment => format!("{head}, raised by the environment"),
             Origin::Wait(waiting) => format!("{head}, which waits until {}", waiting.due),
             Origin::Overdue => format!("the deadline of {head}"),
         }
     }
-}
 
-impl Interpreter {
+    /// A trigger with its values, and with where it comes from if its plans are told.
+    pub(super) fn with_source(&self, key: &Key, values: &[Value]) -> String {
+        let is_sourced = self.configuration.is_sourced(key.1, &key.2);
+        match values.split_last() {
+            Some((source, values)) if is_sourced => {
+                let head = with_values(&key_text(key), values);
+                format!("{head}[source({})]", self.peer_text(source))
+            }
+            _ => with_values(&key_text(key), values),
+        }
+    }
+
     /// Adds a line to the log; plans are one level deeper than their caller.
     fn tell(
         &self,
@@ -130,7 +140,7 @@ impl Interpreter {
     }
 
     pub(super) fn log_event(&self, event: &Event, environment: &mut dyn Environment) {
-        self.tell(0, None, || format!("handles {}", event.text("")), environment);
+        self.tell(0, None, || format!("handles {}", self.event_text(event, "")), environment);
     }
 
     /// Returns the index of the line in the log.
@@ -167,6 +177,17 @@ impl Interpreter {
             result.map_or(call.clone(), |result| format!("{call} is {result}"))
         };
         self.tell(1, Some(self.source.line(atom.span.start)), text, environment);
+    }
+
+    pub(super) fn log_sent(
+        &self,
+        action: &str,
+        content: &Atom,
+        values: &[Value],
+        environment: &mut dyn Environment,
+    ) {
+        let text = || with_values(action, values);
+        self.tell(1, Some(self.source.line(content.span.start)), text, environment);
     }
 
     pub(super) fn log_formula(

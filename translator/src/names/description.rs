@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use super::reach::{Key, key, reach};
 use super::{Found, Meaning, Usage, in_agent, variable_types};
 use crate::configuration::{Basic, Configuration, Predicate};
-use crate::program::trigger_name;
-use crate::syntax::ast::{Agent, Operator, TriggerKind};
+use crate::program::{peer_constant, trigger_name};
+use crate::syntax::ast::{Agent, Operator, Performative, TriggerKind};
 use crate::types::{CType, TypeKind};
 
 /// More names than this are counted.
@@ -45,6 +45,9 @@ pub fn describe(
                 let mut predicates = configuration.predicates.iter();
                 let basic = basics.find(|basic| basic.name.text == found.text);
                 let predicate = predicates.find(|other| other.name.text == found.text);
+                if configuration.peer(found.text).is_some() {
+                    return Some(format!("{}peer", code("c", &peer_constant(found.text))));
+                }
                 let described = basic.map(|basic| action(basic, configuration, agent));
                 described.or_else(|| predicate.map(|found| belief(found, configuration, agent)))
             });
@@ -105,6 +108,12 @@ fn belief(predicate: &Predicate, configuration: &Configuration, agent: Option<&A
     let initial = agent.is_some_and(|a| a.beliefs.iter().any(|atom| atom.name.text == *name));
     if initial {
         facts.push("initial belief".to_owned());
+    }
+    for message in configuration.messages.iter().filter(|message| message.name.text == *name) {
+        let peers = message.senders.iter().filter_map(|peer| configuration.peers.get(*peer));
+        let peers = listed(&peers.map(|peer| peer.text.as_str()).collect());
+        let what = if message.performative == Performative::Tell { "tell" } else { "ask for" };
+        facts.push(format!("the peers that may {what} it are {peers}"));
     }
     for event in configuration.triggerables.iter().filter(|event| event.name.text == *name) {
         let first = configuration.preemptive.iter().any(|other| {

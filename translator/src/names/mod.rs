@@ -127,6 +127,13 @@ pub fn in_plan<'a>(plan: &'a Plan, visit: &mut impl FnMut(Occurrence<'a>)) {
                 in_expression(value, visit);
             }
             Formula::Wait { duration, .. } => in_expression(duration, visit),
+            Formula::MyName { variable, .. } => in_variable(variable, visit),
+            Formula::Send { to, content, .. } => {
+                if let Some(to) = to {
+                    in_expression(to, visit);
+                }
+                in_atom(content, Usage::Value, visit);
+            }
         }
     }
 }
@@ -134,6 +141,9 @@ pub fn in_plan<'a>(plan: &'a Plan, visit: &mut impl FnMut(Occurrence<'a>)) {
 fn in_atom<'a>(atom: &'a Atom, usage: Usage, visit: &mut impl FnMut(Occurrence<'a>)) {
     visit(Occurrence { name: &atom.name, meaning: Meaning::Declared, usage });
     atom.arguments.iter().for_each(|argument| in_expression(argument, visit));
+    if let Some(source) = &atom.source {
+        in_expression(source, visit);
+    }
 }
 
 fn in_variable<'a>(name: &'a Name, visit: &mut impl FnMut(Occurrence<'a>)) {
@@ -145,7 +155,9 @@ fn in_expression<'a>(expression: &'a Expression, visit: &mut impl FnMut(Occurren
     match expression {
         Expression::Variable(name) => in_variable(name, visit),
         Expression::Atom(atom) => in_atom(atom, Usage::Value, visit),
-        Expression::Negate { operand, .. } | Expression::Not { operand, .. } => {
+        Expression::Negate { operand, .. }
+        | Expression::Not { operand, .. }
+        | Expression::MyName { name: operand, .. } => {
             in_expression(operand, visit);
         }
         Expression::Arithmetic { left, right, .. } | Expression::Compare { left, right, .. } => {
@@ -194,8 +206,21 @@ pub fn in_configuration<'a>(
             at(name, counted(name), Usage::Listed);
         }
     }
+    for peer in &configuration.peers {
+        at(peer, Meaning::Declared, Usage::Declaration);
+    }
     for predicate in &configuration.predicates {
         at(&predicate.name, Meaning::Declared, Usage::Declaration);
+    }
+    for message in &configuration.messages {
+        let mut predicates = configuration.predicates.iter();
+        // It may be where the belief or goal is declared.
+        if predicates.all(|predicate| predicate.name.span != message.name.span) {
+            at(&message.name, Meaning::Declared, Usage::Listed);
+        }
+        for name in &message.named {
+            at(name, Meaning::Declared, Usage::Listed);
+        }
     }
     for name in configuration.settables.iter().chain(&configuration.perceived) {
         at(name, Meaning::Declared, Usage::Listed);

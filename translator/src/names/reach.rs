@@ -51,7 +51,10 @@ pub(super) fn reach<'a>(agent: &'a Agent, from: &[Key<'a>]) -> Reach<'a> {
                     (Operator::Delete, TriggerKind::Belief, atom)
                 }
                 Formula::Test(atom) => (Operator::Add, TriggerKind::Test, atom),
-                Formula::Assign { .. } | Formula::Wait { .. } => continue,
+                Formula::Assign { .. }
+                | Formula::Wait { .. }
+                | Formula::MyName { .. }
+                | Formula::Send { .. } => continue,
             };
             open.push((operator, kind, &atom.name.text));
         }

@@ -21,7 +21,9 @@ pub fn variable_types<'a>(
             | Formula::Add(atom)
             | Formula::Delete(atom)
             | Formula::Defer(atom)
-            | Formula::Test(atom) => types.atom(atom),
+            | Formula::Test(atom)
+            | Formula::Send { content: atom, .. } => types.atom(atom),
+            Formula::MyName { .. } => {}
             Formula::Achieve { goal, .. } => types.atom(goal),
             Formula::Assign { variable, value } => types.bind(&variable.text, value),
             Formula::Wait { duration, .. } => types.expression(duration),

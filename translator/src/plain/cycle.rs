@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::plans::{believed, same};
+use super::messages;
+use super::plans::{believed, given, own, percept, same, values_of};
 use crate::program::{Belief, External, HandlerId, Program, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
-use crate::types::CType;
 
 /// The declaration of the state `plain`. Lists begin at index 0.
 pub(super) fn state(program: &Program) -> String {
@@ -46,6 +46,7 @@ pub(super) fn state(program: &Program) -> String {
     for id in &program.deferred {
         arguments(&mut text, program, *id, "deferred", length);
     }
+    text.push_str(&messages::state(program));
     text.push_str("    uint32_t unhandled;\n    uint32_t refused;\n    uint32_t aborted;\n");
     text.push_str("};\nstatic struct plain_state plain;\n\n");
     text
@@ -157,13 +158,6 @@ fn taken(program: &Program, id: HandlerId, place: &str, at: &str) -> (String, St
     (given(types), values.collect())
 }
 
-/// Parameters of these types.
-fn given(types: &[CType]) -> String {
-    let parameters = types.iter().enumerate().map(|(i, ctype)| format!("{} a{i}", ctype.name));
-    let parameters: Vec<String> = parameters.collect();
-    if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") }
-}
-
 /// The places of a goal's arguments.
 fn places(program: &Program, id: HandlerId, place: &str, at: &str) -> String {
     let count = program.handler(id).types.len();
@@ -182,9 +176,10 @@ pub(super) fn step(program: &Program) -> String {
     );
     for (number, external) in preempting(program) {
         let values = event(external, number, "");
-        let run = external
-            .handler
-            .map(|handler| format!("plain_end(plain_run_{}({values}));", handler.0));
+        let run = external.handler.map(|handler| {
+            let values = own(program, handler, values.clone());
+            format!("plain_end(plain_run_{}({values}));", handler.0)
+        });
         _ = writeln!(
             text,
             "    if (plain.pending_{number}) {{\n        plain.pending_{number} = false;\n        \
@@ -200,9 +195,10 @@ pub(super) fn step(program: &Program) -> String {
             text,
             "    if (plain.perceived_{name}) {{\n        plain.perceived_{name} = false;\n        \
              if (!plain.held_{name}) return false;\n        {}\n        return true;\n    }}",
-            percept(handler, &values_of(belief))
+            percept(handler, &own(program, handler, values_of(belief)))
         );
     }
+    text.push_str(&messages::serve(program));
     listed(&mut text, program);
     if !is_queue(program) {
         text.push_str("    if (plain.waiting > 0) {\n        int goal = plain.deferred[0];\n        plain.waiting--;\n");
@@ -223,7 +219,11 @@ pub(super) fn step(program: &Program) -> String {
     text.push_str("    return true;\n}\n\n");
     let again = text.contains("return false");
     // Each round without an event to handle takes one away.
-    let rounds = if again { length(program) + perceived(program).count() + 1 } else { 1 };
+    let rounds = if again {
+        length(program) + perceived(program).count() + messages::unnoticed(program) + 1
+    } else {
+        1
+    };
     _ = writeln!(
         text,
         "static void plain_step(void)\n{{\n    plain_update();\n    \
@@ -259,18 +259,6 @@ fn posted(text: &mut String, program: &Program) {
         _ = writeln!(text, "        if (goal == {}) {{ {run} }}", id.0 + 1);
     }
     text.push_str("        return true;\n    }\n");
-}
-
-/// Runs the plans of a percept: it is no failure if none applies.
-fn percept(handler: HandlerId, values: &str) -> String {
-    format!(
-        "int outcome = plain_run_{}({values}); plain_end(outcome == PLAIN_NO_PLAN ? PLAIN_ACHIEVED : outcome);",
-        handler.0
-    )
-}
-
-fn values_of(belief: &Belief) -> String {
-    (0..belief.types.len()).map(|i| believed(&belief.name, i)).collect::<Vec<_>>().join(", ")
 }
 
 fn event(external: &External, number: usize, at: &str) -> String {
@@ -325,11 +313,12 @@ fn listed(text: &mut String, program: &Program) {
 fn external_run(program: &Program, external: &External, number: usize, values: &str) -> String {
     let Some(belief) = external.belief.map(|id| program.belief(id)) else {
         return external.handler.map_or(String::from("return false;"), |handler| {
+            let values = own(program, handler, values.to_owned());
             format!("plain_end(plain_run_{}({values}));", handler.0)
         });
     };
     let run = match external.handler {
-        Some(handler) => percept(handler, &values_of(belief)),
+        Some(handler) => percept(handler, &own(program, handler, values_of(belief))),
         None => "return false;".to_owned(),
     };
     let name = &belief.name;
@@ -377,6 +366,7 @@ pub(super) fn interface(program: &Program) -> String {
     for belief in program.beliefs.iter().filter(|belief| belief.settable) {
         set(&mut text, belief);
     }
+    text.push_str(&messages::receive(program));
     clear(&mut text, program);
     text
 }
@@ -409,10 +399,15 @@ fn clear(text: &mut String, program: &Program) {
     for (belief, _) in perceived(program) {
         _ = writeln!(text, "    plain.perceived_{} = false;", belief.name);
     }
+    text.push_str(&messages::clear(program));
     if let Some((id, values)) = &program.initial_goal {
         _ = writeln!(text, "    plain_post_{}({});", id.0, constants(values));
     }
-    text.push_str("}\n\nstatic void plain_init(void)\n{\n");
+    let me = if program.has_peers() { "int me" } else { "void" };
+    _ = writeln!(text, "}}\n\nstatic void plain_init({me})\n{{");
+    if program.has_peers() {
+        text.push_str("    plain.me = me;\n");
+    }
     for belief in &program.beliefs {
         _ = writeln!(text, "    plain.held_{} = {};", belief.name, belief.initial.is_some());
         for (index, value) in belief.initial.iter().flatten().enumerate() {
@@ -428,6 +423,7 @@ fn clear(text: &mut String, program: &Program) {
 fn constants(values: &[Value]) -> String {
     let texts = values.iter().map(|value| match value {
         Value::Constant(text, _) => text.as_str(),
+        Value::Me => "plain.me",
         Value::Variable(_) | Value::Call(_) | Value::Negate(_) | Value::Arithmetic(_) => {
             unreachable!("analysis lets only constants into initial beliefs and goals")
         }

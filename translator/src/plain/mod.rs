@@ -5,6 +5,7 @@
 //! the basic action `N`, and `plain_update()` in place of `updateBeliefs()`.
 
 mod cycle;
+mod messages;
 mod plans;
 
 use std::fmt::Write as _;

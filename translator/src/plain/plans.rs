@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use crate::program::{
-    Alternatives, BeliefId, Call, Condition, Handler, HandlerId, Operation, Pattern, Plan, Program,
-    Raise, Step, Value, VariableId,
+    Alternatives, Belief, BeliefId, Call, Condition, Handler, HandlerId, Operation, Pattern, Plan,
+    Program, Raise, Step, Value, VariableId,
 };
 use crate::syntax::ast::{Arithmetic, Relation};
 use crate::types::{CType, TypeKind};
@@ -84,6 +84,35 @@ pub(super) fn same(ctype: &CType, left: &str, right: &str) -> String {
 /// The place of a belief's argument.
 pub(super) fn believed(belief: &str, index: usize) -> String {
     format!("plain.value_{belief}_{index}")
+}
+
+/// Parameters of these types.
+pub(super) fn given(types: &[CType]) -> String {
+    let parameters = types.iter().enumerate().map(|(i, ctype)| format!("{} a{i}", ctype.name));
+    let parameters: Vec<String> = parameters.collect();
+    if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") }
+}
+
+/// Runs the plans of a percept: it is no failure if none applies.
+pub(super) fn percept(handler: HandlerId, values: &str) -> String {
+    format!(
+        "int outcome = plain_run_{}({values}); plain_end(outcome == PLAIN_NO_PLAN ? PLAIN_ACHIEVED : outcome);",
+        handler.0
+    )
+}
+
+/// The places of a belief's arguments.
+pub(super) fn values_of(belief: &Belief) -> String {
+    (0..belief.types.len()).map(|i| believed(&belief.name, i)).collect::<Vec<_>>().join(", ")
+}
+
+/// The source of an event that the agent causes itself, behind its other arguments.
+pub(super) fn own(program: &Program, handler: HandlerId, values: String) -> String {
+    match (program.handler(handler).sourced, values.is_empty()) {
+        (false, _) => values,
+        (true, true) => "plain.me".to_owned(),
+        (true, false) => format!("{values}, plain.me"),
+    }
 }
 
 /// The function of one plan.
@@ -258,6 +287,7 @@ impl<'a> Function<'a> {
         match value {
             Value::Variable(VariableId(index)) => format!("v{index}"),
             Value::Constant(text, _) => text.clone(),
+            Value::Me => "plain.me".to_owned(),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.name.clone();
                 let call = self.call(call, label);
@@ -357,6 +387,15 @@ impl<'a> Function<'a> {
                 let values = self.values(values, "failed").join(", ");
                 self.line(format!("plain_defer_{}({values});", handler.0));
             }
+            Step::Broadcast { basic, values, .. } => {
+                let values = self.values(values, "failed");
+                for peer in 0..program.configuration.peers.len() {
+                    let all: Vec<String> =
+                        std::iter::once(peer.to_string()).chain(values.clone()).collect();
+                    let all = all.join(", ");
+                    self.line(format!("if (plain.me != {peer}) plain_call_{}({all});", basic.0));
+                }
+            }
             Step::Ask { belief, patterns, plans } => {
                 if let Some(plans) = plans {
                     self.ask(*belief, patterns, *plans);
@@ -437,7 +476,10 @@ impl<'a> Function<'a> {
 
     /// What a change of a belief leads to.
     fn raise(&mut self, changed: &str, raise: Raise, values: &[String]) {
-        let values = values.join(", ");
+        let mut values = values.join(", ");
+        if let Raise::Call(handler) | Raise::Post(handler) = raise {
+            values = own(self.program, handler, values);
+        }
         match raise {
             Raise::Nothing => {}
             Raise::Call(handler) => {

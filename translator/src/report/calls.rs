@@ -95,8 +95,12 @@ pub(super) fn besides(program: &Program) -> Bounds {
 pub(super) fn events(program: &Program) -> Vec<HandlerId> {
     let external = program.external.iter().filter_map(|external| external.handler);
     let perceived = program.beliefs.iter().filter_map(|belief| belief.perceived);
+    let asked = program.asked.iter().map(|asked| asked.handler);
+    let told = program.told.iter().flat_map(|told| told.added.into_iter().chain(told.removed));
     let mut events: Vec<HandlerId> = external
         .chain(perceived)
+        .chain(asked)
+        .chain(told)
         .chain(program.posted.iter().copied())
         .chain(program.deferred.iter().copied())
         // A goal whose deadline has passed is handled by its failure plans.

@@ -74,7 +74,10 @@ impl Frames {
             below[index] = Some(frame(&trigger.function) + plan + called.unwrap_or(0).max(leaves));
         }
         let handling = frame("handle_event") + below.into_iter().flatten().max().unwrap_or(0);
-        frame(&self.next_step) + handling.max(frame("take_event"))
+        let [asked, told] = ["take_asked", "take_told"]
+            .map(|function| frame(function) + frame(&format!("{function}_from")));
+        let taking = frame("take_event") + asked.max(told);
+        frame(&self.next_step) + handling.max(taking)
     }
 }
 

@@ -134,6 +134,10 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
     figures.push(("deferred goals waiting", at_most(room)));
     let preemptive = program.external.iter().filter(|external| external.preemptive).count();
     figures.push(("pre-empting events", preemptive.to_string()));
+    if program.has_peers() {
+        let rooms = program.asked.iter().map(|asked| asked.room).sum();
+        figures.push(("goals of peers waiting", at_most(rooms)));
+    }
     figures
 }
 

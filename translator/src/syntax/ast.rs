@@ -29,8 +29,18 @@ pub struct Atom {
     pub name: Name,
     /// Its arguments.
     pub arguments: Vec<Expression>,
-    /// From the name to the closing parenthesis.
+    /// Who told the belief or asked for the goal: `[source(P)]`.
+    pub source: Option<Box<Expression>>,
+    /// From the name to the closing parenthesis, or bracket.
     pub span: Span,
+}
+
+impl Atom {
+    /// Visits every variable in it.
+    pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
+        self.arguments.iter().for_each(|argument| argument.for_each_variable(visit));
+        self.source.iter().for_each(|source| source.for_each_variable(visit));
+    }
 }
 
 /// An argument, or a part of a context.
@@ -96,6 +106,13 @@ pub enum Expression {
         /// The whole binding.
         span: Span,
     },
+    /// `.my_name(M)` in a context: which of the peers the agent is.
+    MyName {
+        /// A new variable, or the peer that it must be.
+        name: Box<Self>,
+        /// From the full stop to the closing parenthesis.
+        span: Span,
+    },
     /// `not b`
     Not {
         /// The negated condition.
@@ -123,6 +140,7 @@ impl Expression {
             | Self::Arithmetic { span, .. }
             | Self::Compare { span, .. }
             | Self::Bind { span, .. }
+            | Self::MyName { span, .. }
             | Self::Not { span, .. } => span.clone(),
             Self::And(parts) | Self::Or(parts) => {
                 let start = parts.first().map_or(0, |part| part.span().start);
@@ -138,8 +156,10 @@ impl Expression {
     pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {
             Self::Variable(name) => visit(name),
-            Self::Atom(atom) => atom.arguments.iter().for_each(|a| a.for_each_variable(visit)),
-            Self::Negate { operand, .. } | Self::Not { operand, .. } => {
+            Self::Atom(atom) => atom.for_each_variable(visit),
+            Self::Negate { operand, .. }
+            | Self::Not { operand, .. }
+            | Self::MyName { name: operand, .. } => {
                 operand.for_each_variable(visit);
             }
             Self::Arithmetic { left, right, .. } | Self::Compare { left, right, .. } => {
@@ -243,6 +263,48 @@ pub enum TriggerKind {
     Test,
 }
 
+/// What a message does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Performative {
+    /// The receiver believes it.
+    Tell,
+    /// The receiver believes it no more.
+    Untell,
+    /// The receiver has to achieve it.
+    Achieve,
+    /// The receiver need not achieve it any more.
+    Unachieve,
+}
+
+impl Performative {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Tell, Self::Untell, Self::Achieve, Self::Unachieve];
+
+    /// Its name in agents and in C.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tell => "tell",
+            Self::Untell => "untell",
+            Self::Achieve => "achieve",
+            Self::Unachieve => "unachieve",
+        }
+    }
+
+    /// What it takes back, or itself: what a configuration declares.
+    #[must_use]
+    pub fn declared(self) -> Self {
+        match self {
+            Self::Tell | Self::Untell => Self::Tell,
+            Self::Achieve | Self::Unachieve => Self::Achieve,
+        }
+    }
+
+    /// Whether the message has arguments; one that takes something back has none.
+    pub fn has_arguments(self) -> bool {
+        self == self.declared()
+    }
+}
+
 /// The head of a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Trigger {
@@ -307,6 +369,24 @@ pub enum Formula {
         /// From the full stop to the closing parenthesis.
         span: Span,
     },
+    /// `.my_name(M)`
+    MyName {
+        /// The variable that receives the agent's own peer.
+        variable: Name,
+        /// From the full stop to the closing parenthesis.
+        span: Span,
+    },
+    /// `.send(peer, tell, b(t))`, `.broadcast(tell, b(t))`
+    Send {
+        /// The receiver; `None` for all other peers.
+        to: Option<Expression>,
+        /// What the message does.
+        performative: Performative,
+        /// What it is about.
+        content: Atom,
+        /// From the full stop to the closing parenthesis.
+        span: Span,
+    },
 }
 
 impl Formula {
@@ -320,7 +400,9 @@ impl Formula {
             | Self::Test(atom) => atom.span.clone(),
             Self::Assign { variable, value } => variable.span.start..value.span().end,
             Self::Achieve { goal, .. } => goal.span.clone(),
-            Self::Wait { span, .. } => span.clone(),
+            Self::Wait { span, .. } | Self::MyName { span, .. } | Self::Send { span, .. } => {
+                span.clone()
+            }
         }
     }
 
@@ -331,10 +413,17 @@ impl Formula {
             | Self::Add(atom)
             | Self::Delete(atom)
             | Self::Defer(atom)
-            | Self::Test(atom) => atom.arguments.iter().for_each(|a| a.for_each_variable(visit)),
+            | Self::Test(atom) => atom.for_each_variable(visit),
             Self::Assign { variable, value } => {
                 visit(variable);
                 value.for_each_variable(visit);
+            }
+            Self::MyName { variable, .. } => visit(variable),
+            Self::Send { to, content, .. } => {
+                if let Some(to) = to {
+                    to.for_each_variable(visit);
+                }
+                content.for_each_variable(visit);
             }
             Self::Achieve { goal, deadline } => {
                 goal.arguments.iter().chain(deadline).for_each(|a| a.for_each_variable(visit));

@@ -122,7 +122,8 @@ impl Parser<'_> {
                 let value = kind == TokenKind::True;
                 Ok(Expression::Boolean { value, span: self.next().span })
             }
-            TokenKind::Atom => Ok(Expression::Atom(self.atom(depth)?)),
+            TokenKind::Atom => Ok(Expression::Atom(self.sourced(depth)?)),
+            TokenKind::Dot if self.is_at_internal() => self.my_name(depth),
             TokenKind::Number => Ok(Expression::Number(self.number(None))),
             TokenKind::Minus => self.signed(depth),
             TokenKind::LeftParenthesis => {

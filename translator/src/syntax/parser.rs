@@ -5,7 +5,9 @@
 
 use diagnostic::{Diagnostic, Span};
 
-use super::ast::{Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
+use super::ast::{
+    Atom, Expression, Formula, Name, Operator, Performative, Plan, Trigger, TriggerKind,
+};
 use super::lexer::{Lexer, Token, TokenKind};
 use crate::code::Code;
 
@@ -195,7 +197,7 @@ impl<'a> Parser<'a> {
         if kind != TriggerKind::Belief {
             self.next();
         }
-        let atom = self.atom(0)?;
+        let atom = self.sourced(0)?;
         let span = operator_token.span.start..atom.span.end;
         Ok(Trigger { operator, kind, atom, span })
     }
@@ -214,7 +216,7 @@ impl<'a> Parser<'a> {
     fn formula(&mut self) -> Parsed<Formula> {
         let build = match self.peek() {
             TokenKind::Bang => return self.achieve(),
-            TokenKind::Dot if self.following() == &TokenKind::Atom => return self.wait(),
+            TokenKind::Dot if self.following() == &TokenKind::Atom => return self.internal(),
             TokenKind::BangBang => Formula::Defer,
             TokenKind::Question => Formula::Test,
             TokenKind::Plus => Formula::Add,
@@ -253,21 +255,90 @@ impl<'a> Parser<'a> {
         Ok(Formula::Achieve { goal, deadline })
     }
 
-    /// `.wait(ms)`, the one internal action. Where a formula is expected, a full stop before a name has no
-    /// other meaning.
-    fn wait(&mut self) -> Parsed<Formula> {
+    /// An internal action. Where a formula is expected, a full stop before a name has no other meaning.
+    fn internal(&mut self) -> Parsed<Formula> {
         let start = self.next().span.start;
         let name = self.span();
-        if !self.take_word("wait") {
-            let found = &self.text[name.clone()];
-            return Err(Code::UnknownAction
+        match &self.text[name.clone()] {
+            "wait" => {
+                self.next();
+                self.expect(&TokenKind::LeftParenthesis, "`(` and a time in milliseconds")?;
+                let duration = self.expression("a time in milliseconds")?;
+                let end = self.expect(&TokenKind::RightParenthesis, "`)`")?.end;
+                Ok(Formula::Wait { duration, span: start..end })
+            }
+            "my_name" => {
+                self.next();
+                self.expect(&TokenKind::LeftParenthesis, "`(` and a variable")?;
+                if self.peek() != &TokenKind::Variable {
+                    return Err(self.unexpected("a variable"));
+                }
+                let variable = self.name();
+                let end = self.expect(&TokenKind::RightParenthesis, "`)`")?.end;
+                Ok(Formula::MyName { variable, span: start..end })
+            }
+            "send" => self.message(start, true),
+            "broadcast" => self.message(start, false),
+            found => Err(Code::UnknownAction
                 .at(format!("unknown internal action `.{found}`"), start..name.end)
-                .help("the only one is `.wait(milliseconds)`; others are basic actions"));
+                .help(
+                    "known are `.wait(milliseconds)`, `.send(peer, tell, belief)`, `.broadcast(tell, belief)` and \
+                     `.my_name(Variable)`; others are basic actions",
+                )),
         }
-        self.expect(&TokenKind::LeftParenthesis, "`(` and a time in milliseconds")?;
-        let duration = self.expression("a time in milliseconds")?;
+    }
+
+    /// `.send(peer, tell, b(t))`, or `.broadcast(tell, b(t))`, at its name.
+    fn message(&mut self, start: usize, has_receiver: bool) -> Parsed<Formula> {
+        self.next();
+        self.expect(&TokenKind::LeftParenthesis, "`(`")?;
+        let mut to = None;
+        if has_receiver {
+            to = Some(self.expression("a peer")?);
+            self.expect(&TokenKind::Comma, "`,` and what the message does")?;
+        }
+        let word = self.span();
+        let known = |performative: &Performative| performative.name() == &self.text[word.clone()];
+        let Some(performative) = Performative::ALL.into_iter().find(known) else {
+            return Err(self.unexpected("`tell`, `untell`, `achieve` or `unachieve`"));
+        };
+        self.next();
+        self.expect(&TokenKind::Comma, "`,` and what the message is about")?;
+        let content = self.atom(0)?;
         let end = self.expect(&TokenKind::RightParenthesis, "`)`")?.end;
-        Ok(Formula::Wait { duration, span: start..end })
+        Ok(Formula::Send { to, performative, content, span: start..end })
+    }
+
+    /// `.my_name(M)` in a context.
+    pub(super) fn my_name(&mut self, depth: usize) -> Parsed<Expression> {
+        let start = self.next().span.start;
+        if !self.take_word("my_name") {
+            return Err(self.unexpected("`my_name`, which alone may stand in a context"));
+        }
+        self.expect(&TokenKind::LeftParenthesis, "`(` and a variable or peer")?;
+        let name = Box::new(self.argument(depth)?);
+        let end = self.expect(&TokenKind::RightParenthesis, "`)`")?.end;
+        Ok(Expression::MyName { name, span: start..end })
+    }
+
+    /// A name with arguments, and where it comes from: `b(t)[source(P)]`.
+    pub(super) fn sourced(&mut self, depth: usize) -> Parsed<Atom> {
+        let mut atom = self.atom(depth)?;
+        if self.take(&TokenKind::LeftBracket) {
+            if !self.take_word("source") {
+                return Err(self.unexpected("`source(peer)`"));
+            }
+            self.expect(&TokenKind::LeftParenthesis, "`(` and a peer")?;
+            atom.source = Some(Box::new(self.argument(depth)?));
+            self.expect(&TokenKind::RightParenthesis, "`)`")?;
+            atom.span.end = self.expect(&TokenKind::RightBracket, "`]`")?.end;
+        }
+        Ok(atom)
+    }
+
+    /// Whether the current token is a full stop before a name.
+    pub(super) fn is_at_internal(&self) -> bool {
+        self.peek() == &TokenKind::Dot && self.following() == &TokenKind::Atom
     }
 
     /// Takes the name under the cursor if it is `word`.
@@ -297,7 +368,7 @@ impl<'a> Parser<'a> {
             end = self.expect(&TokenKind::RightParenthesis, "`,` or `)`")?.end;
         }
         let span = name.span.start..end;
-        Ok(Atom { name, arguments, span })
+        Ok(Atom { name, arguments, source: None, span })
     }
 
     /// The current token as a name; the caller has checked its kind.

@@ -40,6 +40,12 @@ impl<T: Shift> Shift for Option<T> {
     }
 }
 
+impl<T: Shift> Shift for Box<T> {
+    fn shift(&mut self, bytes: isize) {
+        self.as_mut().shift(bytes);
+    }
+}
+
 impl<T: Shift, U: Shift> Shift for (T, U) {
     fn shift(&mut self, bytes: isize) {
         self.0.shift(bytes);
@@ -63,6 +69,7 @@ impl Shift for Atom {
     fn shift(&mut self, bytes: isize) {
         self.name.shift(bytes);
         self.arguments.shift(bytes);
+        self.source.shift(bytes);
         self.span.shift(bytes);
     }
 }
@@ -76,7 +83,9 @@ impl Shift for Expression {
             Self::Unnamed(span) | Self::Boolean { span, .. } | Self::Text { span, .. } => {
                 span.shift(bytes);
             }
-            Self::Negate { operand, span } | Self::Not { operand, span } => {
+            Self::Negate { operand, span }
+            | Self::Not { operand, span }
+            | Self::MyName { name: operand, span } => {
                 operand.shift(bytes);
                 span.shift(bytes);
             }
@@ -111,6 +120,15 @@ impl Shift for Formula {
             Self::Achieve { goal, deadline } => {
                 goal.shift(bytes);
                 deadline.shift(bytes);
+            }
+            Self::MyName { variable, span } => {
+                variable.shift(bytes);
+                span.shift(bytes);
+            }
+            Self::Send { to, content, span, .. } => {
+                to.shift(bytes);
+                content.shift(bytes);
+                span.shift(bytes);
             }
             Self::Wait { duration, span } => {
                 duration.shift(bytes);

@@ -12,7 +12,8 @@
 //!   the agent's first error.
 //!
 //! Commands: `step`; `at 50` sets the clock and takes a step; `set b(3)`; `+!g(1)`, `+b(1)`, `-b` raise an
-//! event and print whether it was accepted; `room` prints whether the next one would be; `init`; `clear`;
+//! event and print whether it was accepted; `leader tells b(3)`, `untells b`, `asks g(1)`, `unasks g` is a message of a peer,
+//! and prints whether it was accepted; `me scout` begins again as another peer than the first; `room` prints whether the next one would be; `init`; `clear`;
 //! `counts` prints the counters. A step ends with `|`.
 
 use std::collections::BTreeSet;
@@ -22,14 +23,14 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use translator::interpreter::{Environment, Interpreter, Value};
-use translator::syntax::ast::{Operator, TriggerKind};
+use translator::syntax::ast::{Operator, Performative, TriggerKind};
 use translator::types::{CType, TypeKind};
 use translator::{ParsedConfiguration, parse_configuration, translate};
 
 use crate::harness::{compile_and_run, trimmed_lines};
 
 /// All rules of the language, each of which the suite must cover.
-const RULES: [&str; 121] = [
+const RULES: [&str; 154] = [
     "program comments",
     "program left out",
     "program empty parentheses",
@@ -135,6 +136,39 @@ const RULES: [&str; 121] = [
     "time deadline wait",
     "time deadline pre-empted",
     "time deadline retry",
+    "message tell",
+    "message refused",
+    "message newest",
+    "message slots",
+    "message untell",
+    "message any source",
+    "message order",
+    "message search",
+    "message search two",
+    "message search or",
+    "message search not",
+    "message source bound",
+    "message source named",
+    "message self",
+    "message my name",
+    "message added",
+    "message added once",
+    "message removed",
+    "message unnoticed",
+    "message added source",
+    "message added own",
+    "message turns",
+    "message service",
+    "message ring",
+    "message unachieve",
+    "message goal source",
+    "message goal waits",
+    "message goal posted",
+    "message send",
+    "message broadcast",
+    "message clear",
+    "message peer values",
+    "message refused statically",
     "refused undeclared",
     "refused arity",
     "refused type",
@@ -159,6 +193,15 @@ pub(crate) const BASICS: &str = "void a(void); void act(int); void pair(int, int
     int count(void); int now(void);";
 pub(crate) const TYPES: &str = "g(void); h(void); k(void); land(void); c(void); gi(int); h2(int); b(int); \
     gd(double); d(double); go2(int, int); p(int, int); s(const char *); on(bool);";
+
+/// What there is besides for agents with peers.
+const OF_PEERS: &str = "void who(peer); bool odd(peer); peer second(void);";
+/// The same in C.
+const PRELUDE_OF_PEERS: &str = r#"
+void who(peer_t x) { printf("who(%d)\n", (int)x); }
+bool odd(peer_t x) { printf("odd(%d)\n", (int)x); return (x % 2U) == 1U; }
+peer_t second(void) { return 1U; }
+"#;
 
 /// The same in C.
 const PRELUDE: &str = r#"
@@ -199,9 +242,11 @@ impl Case {
     fn configuration(&self) -> ParsedConfiguration {
         let text = format!(
             "settings {{ input = agent.asl; output = agent.c; header = agent.h; \
-             basics = actions.h; {} }};\nbasics {{ {BASICS} }};\n\
+             basics = actions.h; {} }};\nbasics {{ {BASICS} {} }};\n\
              types {{ {TYPES} }};\n{}\n",
-            self.settings, self.sections
+            self.settings,
+            if self.sections.contains("peers") { OF_PEERS } else { "" },
+            self.sections
         );
         parse_configuration("agent.conf", &text).unwrap_or_else(|e| panic!("{}: {e}", self.title))
     }
@@ -255,6 +300,13 @@ impl Case {
                         _ = writeln!(world.trace, "aborted {}", agent.aborted_events());
                     }
                 }
+                Some(("me", name)) => agent.be(peer(&configuration, name)),
+                Some((sender, said)) if let Some((performative, content)) = message(said) => {
+                    let (name, arguments) = atom(content);
+                    let sender = peer(&configuration, sender);
+                    let accepted = agent.receive(sender, performative, &name, arguments);
+                    world.trace.push_str(answer(accepted));
+                }
                 _ => {
                     let (operator, kind, event) = event(command);
                     let (name, arguments) = atom(event);
@@ -267,10 +319,19 @@ impl Case {
     }
 
     fn compiled(&self, run: &str) -> String {
-        let translation = translate(&self.configuration(), &self.agent)
+        let configuration = self.configuration();
+        let translation = translate(&configuration, &self.agent)
             .unwrap_or_else(|error| panic!("{}\n{error}", self.title));
-        let mut script = String::from("#define STEP next_step(); printf(\"|\\n\");\n");
-        script.push_str("int main(void)\n{\ninit();\n");
+        let mut script = sending(&configuration);
+        if !configuration.declarations().peers.is_empty() {
+            script.push_str(PRELUDE_OF_PEERS);
+        }
+        script.push_str("#define STEP next_step(); printf(\"|\\n\");\n");
+        let mut init = "init();".to_owned();
+        if !configuration.declarations().peers.is_empty() {
+            "init(0U);".clone_into(&mut init);
+        }
+        _ = writeln!(script, "int main(void)\n{{\n{init}");
         for command in run.split(';').map(str::trim) {
             let call = |name: &str, rest: &str| {
                 let rest = if rest.contains('(') { rest.to_owned() } else { format!("{rest}()") };
@@ -280,7 +341,26 @@ impl Case {
                 None if command == "step" => script.push_str("STEP\n"),
                 Some(("at", time)) => _ = writeln!(script, "clock_ms = {time}; STEP"),
                 Some(("set", belief)) => _ = writeln!(script, "{};", call("set", belief)),
-                None if matches!(command, "init" | "clear") => _ = writeln!(script, "{command}();"),
+                None if command == "clear" => script.push_str("clear();\n"),
+                None if command == "init" => _ = writeln!(script, "{init}"),
+                Some(("me", name)) => {
+                    init = format!("init(PEER_{});", name.to_uppercase());
+                    _ = writeln!(script, "{init}");
+                }
+                Some((sender, said)) if let Some((performative, content)) = message(said) => {
+                    let (name, arguments) = content.split_once('(').unwrap_or((content, ")"));
+                    let comma = if arguments == ")" { "" } else { ", " };
+                    let sender = if sender == "stranger" {
+                        "200U".to_owned()
+                    } else {
+                        format!("PEER_{}", sender.to_uppercase())
+                    };
+                    _ = writeln!(
+                        script,
+                        "puts(receive_{}_{name}({sender}{comma}{arguments} ? \"yes\" : \"no\");",
+                        performative.name()
+                    );
+                }
                 None if command == "room" => {
                     script.push_str("puts(can_add_event() ? \"yes\" : \"no\");\n");
                 }
@@ -305,6 +385,59 @@ impl Case {
         script.push_str("return 0;\n}\n");
         compile_and_run(&translation, &format!("{PRELUDE}{script}"))
     }
+}
+
+/// The number of a peer; a stranger has one that no peer has.
+fn peer(configuration: &ParsedConfiguration, name: &str) -> usize {
+    if name == "stranger" {
+        return 200;
+    }
+    let mut peers = configuration.declarations().peers.iter();
+    peers.position(|peer| peer.text == name).unwrap_or_else(|| panic!("no peer `{name}`"))
+}
+
+/// `tells b(3)`: what a message does, and what it is about.
+fn message(said: &str) -> Option<(Performative, &str)> {
+    let (verb, content) = said.split_once(' ')?;
+    let performative = match verb {
+        "tells" => Performative::Tell,
+        "untells" => Performative::Untell,
+        "asks" => Performative::Achieve,
+        "unasks" => Performative::Unachieve,
+        _ => return None,
+    };
+    Some((performative, content))
+}
+
+/// Definitions of the actions that send messages.
+fn sending(configuration: &ParsedConfiguration) -> String {
+    let mut text = String::new();
+    for message in &configuration.declarations().messages {
+        for performative in Performative::ALL {
+            if performative.declared() != message.performative {
+                continue;
+            }
+            let types = message.parameters.iter().filter(|_| performative.has_arguments());
+            let (mut parameters, mut form, mut values) =
+                ("peer_t to".to_owned(), "%d".to_owned(), "(int)to".to_owned());
+            for (index, ctype) in types.enumerate() {
+                _ = write!(parameters, ", {} x{index}", ctype.name);
+                let (part, value) = match ctype.kind {
+                    TypeKind::Float64 => (",%.15f", format!("x{index}")),
+                    TypeKind::Text => (",%s", format!("x{index}")),
+                    _ => (",%d", format!("(int)x{index}")),
+                };
+                form.push_str(part);
+                _ = write!(values, ", {value}");
+            }
+            let name = format!("send_{}_{}", performative.name(), message.name.text);
+            _ = writeln!(
+                text,
+                "void {name}({parameters}) {{ printf(\"{name}({form})\\n\", {values}); }}"
+            );
+        }
+    }
+    text
 }
 
 /// `LINE:COLUMN: message` of the first error.
@@ -369,7 +502,7 @@ impl Environment for World {
             })
             .collect();
         match (name, texts.as_slice()) {
-            ("count", _) => {}
+            ("count" | "second", _) => {}
             (_, []) => _ = writeln!(self.trace, "{name}"),
             _ => _ = writeln!(self.trace, "{name}({})", texts.join(",")),
         }
@@ -378,6 +511,8 @@ impl Environment for World {
             ("yes", _) => Some(Value::Bool(true)),
             ("no", _) => Some(Value::Bool(false)),
             ("flip", [Value::Bool(value)]) => Some(Value::Bool(!value)),
+            ("odd", [Value::Integer(value)]) => Some(Value::Bool(value % 2 == 1)),
+            ("second", _) => Some(Value::Integer(1)),
             ("twice", [Value::Integer(value)]) => Some(Value::Integer(2 * value)),
             ("count", _) => Some(Value::Integer(3)),
             _ => unreachable!("the suite has no function `{name}`"),

@@ -153,13 +153,26 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
         if let Some(action) = declaration.strip_prefix("void ") {
             main.push_str(&printing_action(action));
         } else if let Some((result, function)) = declaration.split_once(' ') {
-            let name = function.split('(').next().unwrap();
+            let (name, types) = function.split_once('(').unwrap();
+            let types = types.trim_end_matches(')').split(',').map(str::trim);
+            let types = types.filter(|ctype| !matches!(*ctype, "void" | "")).enumerate();
+            let (parameters, unused): (Vec<String>, Vec<String>) =
+                types.map(|(i, ctype)| (format!("{ctype} a{i}"), format!("(void)a{i}; "))).unzip();
+            let parameters =
+                if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
             main.push_str(&format!(
-                "static {result} {name}_result = 0;\n{result} {name}(void) {{ return {name}_result; }}\n"
+                "static {result} {name}_result = 0;\n{result} {name}({parameters}) {{ {}return {name}_result; }}\n",
+                unused.concat()
             ));
         }
     }
-    main.push_str(&format!("int main(void) {{ init();\n{script}\nreturn 0; }}\n"));
+    for action in parsed.declarations().sending() {
+        let types: Vec<&str> = action.parameters.iter().map(|ctype| ctype.name.as_str()).collect();
+        main.push_str(&printing_action(&format!("{}({})", action.name.text, types.join(", "))));
+    }
+    // An agent with peers begins as the first of them.
+    let me = if parsed.declarations().peers.is_empty() { "" } else { "0U" };
+    main.push_str(&format!("int main(void) {{ init({me});\n{script}\nreturn 0; }}\n"));
     std::fs::write(folder.path().join("main.c"), main).unwrap();
     let result = compiler(folder.path()).args(["-o", "agent", "main.c"]).output().unwrap();
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
@@ -197,7 +210,8 @@ fn compiler(folder: &Path) -> Command {
 fn printing_action(declaration: &str) -> String {
     let (name, types) = declaration.split_once('(').unwrap();
     let types = types.trim_end_matches(')');
-    let types: Vec<&str> = types.split(',').map(str::trim).filter(|t| *t != "void").collect();
+    let types = types.split(',').map(str::trim).filter(|t| *t != "void");
+    let types: Vec<&str> = types.map(|t| if t == "peer" { "peer_t" } else { t }).collect();
     let parameters: Vec<String> =
         types.iter().enumerate().map(|(i, ctype)| format!("{ctype} a{i}")).collect();
     let formats: Vec<&str> = types

@@ -1,27 +1,16 @@
 //! The deliberation cycle: posting events, taking the next one, handling it.
 
+use super::events::{UNROLLED, event_name, no_event, run, wrapped};
+use super::messages;
 use super::names::{Names, argument};
 use super::state::{
-    Ring, Slot, belief_value, deferred_ring, event, external_count, external_name, handler_name,
-    held, inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
+    Ring, Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held,
+    inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
-use crate::syntax::ast::{Operator, TriggerKind};
+use crate::syntax::ast::Operator;
 use crate::types::CType;
-
-/// A step that takes at most this number of updates before it handles an event has no loop.
-const UNROLLED: usize = 8;
-
-/// Enumerator of an event, with the prefix of the agent.
-pub(super) fn event_name(names: &Names, slot: Slot, trigger: &str) -> String {
-    format!("{}{}", names.interface("").to_uppercase(), event(slot, trigger))
-}
-
-/// Enumerator for no event.
-pub(super) fn no_event(names: &Names) -> String {
-    format!("{}EVENT_NONE", names.interface("").to_uppercase())
-}
 
 /// Functions that post an event for the next step or defer a goal.
 pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
@@ -132,11 +121,6 @@ fn queueing(
     writer.line("");
 }
 
-/// Wraps an index into a ring of `length` elements.
-pub(super) fn wrapped(index: &str, length: usize) -> String {
-    if length == 1 { "0U".to_owned() } else { format!("({index}) % {length}U") }
-}
-
 /// Stores a function's arguments in the slot of an event.
 pub(super) fn store(
     writer: &mut Writer,
@@ -154,6 +138,7 @@ pub(super) fn store(
 
 /// `take_event`, `handle_event` and `next_step`.
 pub(super) fn cycle(writer: &mut Writer, program: &Program, names: &Names) {
+    messages::take(writer, program, names);
     take_event(writer, program, names);
     handle_event(writer, program, names);
     next_step(writer, program, names);
@@ -207,6 +192,7 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
         ];
         branches.push((flag, taken));
     }
+    branches.extend(messages::branches(program, names));
     let inbox = inbox_ring(program).map(|ring| ring.field("queue"));
     for ring in rings(program) {
         let field = |part: &str| names.field(&ring.field(part));
@@ -285,6 +271,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let values: Vec<String> = (0..belief.types.len())
             .map(|number| names.field(&belief_value(&belief.name, number)))
             .collect();
+        let values = own(program, names, handler, values);
         if program.is_deleted(belief) {
             // A belief that has been deleted meanwhile raises no event.
             writer.open(format!("if ({})", names.field(&held(&belief.name))));
@@ -298,6 +285,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         }
         close_case(writer);
     }
+    messages::cases(writer, program, names);
     for external in &program.external {
         external_case(writer, program, names, external);
     }
@@ -356,16 +344,10 @@ fn slot_values(program: &Program, names: &Names, slot: Slot, id: HandlerId) -> V
         .collect()
 }
 
-fn run(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId, values: &[String]) {
-    let trigger = handler_name(program, id);
-    let arguments = names.arguments(values.iter().cloned());
-    writer.line(format!("outcome = run_{trigger}({arguments});"));
-    if program.handler(id).kind == TriggerKind::Belief {
-        // A percept without an applicable plan is not a failure.
-        writer.open("if (outcome == OUTCOME_NOT_APPLICABLE)");
-        writer.line("outcome = OUTCOME_ACHIEVED;");
-        writer.close("}");
-    }
+/// The values of an event that the agent or its environment causes.
+fn own(program: &Program, names: &Names, id: HandlerId, mut values: Vec<String>) -> Vec<String> {
+    values.extend(program.handler(id).sourced.then(|| names.field("me")));
+    values
 }
 
 fn external_case(writer: &mut Writer, program: &Program, names: &Names, external: &External) {
@@ -395,7 +377,9 @@ fn external_case(writer: &mut Writer, program: &Program, names: &Names, external
             writer.open(format!("if ({held})"));
             writer.line(format!("{held} = false;"));
             match external.handler {
-                Some(handler) => run(writer, program, names, handler, &fields),
+                Some(handler) => {
+                    run(writer, program, names, handler, &own(program, names, handler, fields));
+                }
                 None => writer.line("handled = false;"),
             }
             writer.close("}");
@@ -412,7 +396,9 @@ fn external_case(writer: &mut Writer, program: &Program, names: &Names, external
         values = fields;
     }
     match external.handler {
-        Some(handler) => run(writer, program, names, handler, &values),
+        Some(handler) => {
+            run(writer, program, names, handler, &own(program, names, handler, values));
+        }
         None => writer.line("handled = false;"),
     }
     close_case(writer);
@@ -462,5 +448,5 @@ fn updates(program: &Program) -> usize {
         |external: &External| external.handler.is_none() || external.operator == Operator::Delete;
     let deleted = perceived(program).filter(|(belief, _)| program.is_deleted(belief)).count();
     let inbox = program.configuration.settings.inbox as usize;
-    deleted + if queued(program).any(is_update) { inbox } else { 0 }
+    deleted + messages::unnoticed(program) + if queued(program).any(is_update) { inbox } else { 0 }
 }

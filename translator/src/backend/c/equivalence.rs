@@ -14,7 +14,7 @@ mod well_formed;
 use std::fmt::Write as _;
 
 pub(crate) use self::environment::NO_OWN_STATE;
-use super::cycle::{event_name, no_event};
+use super::events::{event_name, no_event};
 use super::host::{ANSWERS, Host, STEPS};
 use super::names::{Names, argument, listed, typed_arguments};
 use crate::backend::writer::Writer;
@@ -47,18 +47,24 @@ pub(crate) fn cases(program: &Program) -> Vec<String> {
 
 /// A bound for all loops of both.
 pub(crate) fn unwinding(program: &Program) -> usize {
-    let rounds = plain::length(program) + plain::perceived(program).count() + 2;
-    rounds.max(program.deferred.len()) + 1
+    let messages = program.told.len();
+    let rounds = plain::length(program) + plain::perceived(program).count() + messages + 2;
+    let waiting = program.asked.iter().map(|asked| asked.room).max().unwrap_or_default();
+    let peers = program.configuration.peers.len();
+    rounds.max(program.deferred.len()).max(waiting).max(peers) + 1
 }
 
 /// All types of values, each once.
 fn types(program: &Program) -> Vec<CType> {
+    let peer = program.has_peers().then(CType::peer);
     let basics = program.configuration.basics.iter();
     let basics = basics.flat_map(|basic| basic.parameters.iter().chain([&basic.result]));
     let handlers = program.handlers.iter().flat_map(|handler| &handler.types);
     let events = program.external.iter().flat_map(|external| &external.types);
     let beliefs = program.beliefs.iter().flat_map(|belief| &belief.types);
-    let used = basics.chain(handlers).chain(events).chain(beliefs);
+    let messages = program.configuration.messages.iter();
+    let said = messages.flat_map(|message| &message.parameters).chain(&peer);
+    let used = basics.chain(handlers).chain(events).chain(beliefs).chain(said);
     let structs = program.configuration.structs.iter();
     let fields = structs.flat_map(|declared| declared.fields.iter().map(|(_, ctype)| ctype));
     let mut types = vec![CType::named("bool"), CType::named("uint32_t")];
@@ -315,7 +321,7 @@ impl Comparison<'_> {
             text,
             "int plain_interface(void)\n{{\n    plain_start();\n    plain_call_by_environment();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
         );
-        let init = self.init();
+        let init = self.init(false);
         let mut begun = String::new();
         if !self.beginning.is_empty() {
             self.begin(text);

@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::host::{Call, Host, changes, choose, counts, created, update};
+use super::messages::received;
 use super::names::Names;
 use super::trace::{TRACE, ask, make, trace_call, trace_result};
 use crate::backend::writer::Writer;
@@ -120,7 +121,9 @@ impl Builder<'_> {
         );
         writer.open(format!("static void asl2c_call_anything({})", self.names.parameters(&[])));
         // Events are raised as often as beliefs are set, however many there are.
-        let (events, others) = (self.program.external.len(), self.program.settable().count() + 1);
+        let said = received(self.program).len();
+        let (events, others) =
+            (self.program.external.len(), self.program.settable().count() + said + 1);
         writer.line(format!("uint64_t choice = {events}U + any_below({others}U);"));
         if events > 0 {
             writer.line(format!("choice = any_bool() ? any_below({events}U) : choice;"));
@@ -144,7 +147,8 @@ impl Builder<'_> {
     }
 
     fn entry(&self, writer: &mut Writer) {
-        let init = self.names.init_call("0");
+        let peers = self.program.configuration.peers.len();
+        let init = self.names.init_call("0", &format!("(peer_t)any_below({peers}U)"));
         writer.open("void asl2c_exercise(void)");
         if self.names.is_context() {
             let state = self.names.state_type();
@@ -216,6 +220,8 @@ fn any_struct(writer: &mut Writer, declared: &Struct) {
 /// An expression with any value of a type.
 fn any(ctype: &CType) -> String {
     match ctype.kind {
+        // Most of them exist, and not all.
+        _ if ctype.is_peer() => format!("({})any_below(5U)", ctype.name),
         TypeKind::Bool => "any_bool()".to_owned(),
         TypeKind::Float32 => "any_float()".to_owned(),
         TypeKind::Float64 => "any_double()".to_owned(),

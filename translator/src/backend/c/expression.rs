@@ -226,6 +226,7 @@ impl PlanEmitter<'_> {
         match value {
             Value::Variable(id) => self.plan.variables[id.0].name.clone(),
             Value::Constant(text, _) => text.clone(),
+            Value::Me => self.names.field("me"),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.clone();
                 let text = self.call(call);
@@ -281,5 +282,5 @@ impl PlanEmitter<'_> {
 
 /// Whether a value needs no preceding statement.
 fn is_plain(value: &Value) -> bool {
-    matches!(value, Value::Variable(_) | Value::Constant(..))
+    matches!(value, Value::Variable(_) | Value::Constant(..) | Value::Me)
 }

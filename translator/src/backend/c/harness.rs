@@ -11,7 +11,7 @@ mod moment;
 use std::collections::BTreeMap;
 
 pub(crate) use self::moment::Moment;
-use super::cycle::event_name;
+use super::events::event_name;
 use super::host::{ANSWERS, Call, Host, STEPS, changes, choose, created, record, update};
 use super::names::{Names, argument_names};
 use super::state::{Slot, belief_value, external_name, held, inbox_ring, pending};
@@ -22,7 +22,7 @@ use crate::configuration::{
 };
 use crate::program::{External, Program};
 use crate::syntax::ast::{Name, Number, Relation};
-use crate::types::TypeKind;
+use crate::types::{CType, TypeKind};
 
 /// The texts of a proof.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -118,7 +118,10 @@ impl Builder<'_> {
             .iter()
             .map(|basic| &basic.result)
             .chain(self.program.beliefs.iter().flat_map(|belief| &belief.types))
-            .chain(self.program.external.iter().flat_map(|external| &external.types));
+            .chain(self.program.external.iter().flat_map(|external| &external.types))
+            .chain(self.program.configuration.messages.iter().flat_map(|said| &said.parameters));
+        let peer = self.program.has_peers().then(CType::peer);
+        let used = used.chain(&peer);
         for ctype in used.filter(|ctype| ctype.kind != TypeKind::Void) {
             if !types.contains(&ctype.name.as_str()) {
                 types.push(&ctype.name);
@@ -353,13 +356,28 @@ impl Builder<'_> {
         writer.close("}");
     }
 
+    /// The call of `init()` for `agent`, as this peer if there are peers.
+    fn init(&self, me: &str) -> String {
+        let me = if self.program.has_peers() { format!(", {me}") } else { String::new() };
+        format!("{}(&agent, 0{me})", self.names.interface("init"))
+    }
+
     fn entries(&self, writer: &mut Writer) {
-        let (state, init) = (self.names.state_type(), self.names.interface("init"));
+        let state = self.names.state_type();
+        let peers = self.program.configuration.peers.len();
+        let any_peer = |writer: &mut Writer| {
+            if peers > 0 {
+                let (name, any) = (CType::peer().name, anything(&CType::peer().name));
+                writer.line(format!("const {name} me = {any};"));
+                writer.line(format!("__CPROVER_assume(me < {peers}U);"));
+            }
+        };
         writer.line("/* The invariant holds initially. */");
         writer.open("int base(void)");
         writer.line("/* In any state: it may be called again. */");
         writer.line(format!("{state} agent;"));
-        writer.line(format!("{init}(&agent, 0);"));
+        any_peer(writer);
+        writer.line(format!("{};", self.init("me")));
         writer.line("check_invariant(&agent);");
         writer.line("return 0;");
         writer.close("}");
@@ -391,7 +409,7 @@ impl Builder<'_> {
         writer.line("/* A complete execution, for tools that analyse loops. */");
         writer.open("int main(void)");
         writer.line(format!("{state} agent;"));
-        writer.line(format!("{init}(&agent, 0);"));
+        writer.line(format!("{};", self.init("0U")));
         writer.open(format!("while ({})", anything("bool")));
         writer.line("transition(&agent);");
         writer.close("}");

@@ -1,5 +1,6 @@
 //! The generated headers and the types at the head of the C file.
 
+use super::messages::{peer_type, received};
 use super::names::{Names, comment_safe, include_path, listed, typed};
 use super::state::{Counter, FieldType, StateLayout, counters, external_name};
 use crate::backend::writer::Writer;
@@ -29,6 +30,7 @@ pub(super) fn agent_header(
     let guard = open_guard(&mut writer, &settings.header);
     includes(&mut writer, program);
     structs(&mut writer, program);
+    peer_type(&mut writer, program);
     if names.is_context() {
         state_types(&mut writer, names, layout);
     }
@@ -37,7 +39,7 @@ pub(super) fn agent_header(
         writer.line(format!("{prototype};"));
         writer.line("");
     };
-    declare(&mut writer, "Starts the agent again.", init_prototype(names));
+    declare(&mut writer, "Starts the agent again.", init_prototype(program, names));
     let none: [CType; 0] = [];
     let empty = names.parameters(&none);
     declare(
@@ -79,6 +81,9 @@ pub(super) fn agent_header(
         };
         declare(&mut writer, comment, format!("void {name}({parameters})"));
     }
+    for function in received(program) {
+        declare(&mut writer, function.comment(), function.head(names));
+    }
     writer.line(format!("#endif /* {guard} */"));
     writer.finish()
 }
@@ -89,7 +94,8 @@ pub(super) fn basics_header(program: &Program, names: &Names, input: &str) -> St
     let mut writer = Writer::default();
     banner(&mut writer, program, input);
     let guard = open_guard(&mut writer, &settings.basics);
-    if names.is_context() || !program.configuration.structs.is_empty() {
+    let has_types = program.has_peers() || !program.configuration.structs.is_empty();
+    if names.is_context() || has_types {
         writer.line(format!("#include \"{}\"", include_path(&settings.basics, &settings.header)));
         writer.line("");
     } else {
@@ -125,10 +131,11 @@ pub(super) fn private_types(writer: &mut Writer, names: &Names, layout: &StateLa
     writer.line("");
 }
 
-/// `void init(void)`, or with the state and the environment's pointer.
-pub(super) fn init_prototype(names: &Names) -> String {
+/// `void init(void)`, or with the state and the environment's pointer, and with the peer that the agent is.
+pub(super) fn init_prototype(program: &Program, names: &Names) -> String {
     let state = || format!("{} *self, void *environment", names.state_type());
-    let parameters = listed(names.is_context().then(state));
+    let me = program.has_peers().then(|| format!("{} me", CType::peer().name));
+    let parameters = listed(names.is_context().then(state).into_iter().chain(me));
     format!("void {}({parameters})", names.interface("init"))
 }
 

@@ -1,6 +1,7 @@
 //! What all programs around an agent's C have in common: they define the environment's functions and call the agent's. They
 //! differ in where values come from, and in what is recorded.
 
+use super::messages::{Received, received};
 use super::names::{Names, argument_names, constant};
 use super::state::{counters, external_name};
 use crate::backend::writer::Writer;
@@ -20,6 +21,8 @@ pub(super) enum Call<'a> {
     /// With the event's number.
     Raise(usize, &'a External),
     Set(&'a Belief),
+    /// A peer says something.
+    Receive(Received),
     Clear,
     /// Whether there is room for an event.
     Room,
@@ -33,6 +36,7 @@ impl Call<'_> {
         match self {
             Self::Raise(_, external) => external_name(external),
             Self::Set(belief) => format!("set_{}", belief.name),
+            Self::Receive(function) => function.name.clone(),
             Self::Clear => "clear".to_owned(),
             Self::Room => "can_add_event".to_owned(),
             Self::Count(counter) => format!("{counter}_events"),
@@ -43,16 +47,18 @@ impl Call<'_> {
         match self {
             Self::Raise(_, external) => &external.types,
             Self::Set(belief) => &belief.types,
+            Self::Receive(function) => &function.types,
             Self::Clear | Self::Room | Self::Count(_) => &[],
         }
     }
 }
 
-/// Calls that raise an event or set a belief.
+/// Calls that raise an event, set a belief or say something.
 pub(super) fn changes(program: &Program) -> impl Iterator<Item = Call<'_>> {
     let events = program.external.iter().enumerate();
     let events = events.map(|(number, external)| Call::Raise(number, external));
-    events.chain(program.settable().map(Call::Set))
+    let said = received(program).into_iter().map(Call::Receive);
+    events.chain(program.settable().map(Call::Set)).chain(said)
 }
 
 /// Calls that ask for each counter.
@@ -65,7 +71,9 @@ pub(super) fn created(program: &Program, is_wanted: impl Fn(TypeKind) -> bool) -
     let results = program.configuration.basics.iter().map(|basic| &basic.result);
     let arguments = program.settable().flat_map(|belief| &belief.types);
     let events = program.external.iter().flat_map(|external| &external.types);
-    let mut all = results.chain(arguments).chain(events);
+    let messages = program.configuration.messages.iter();
+    let said = messages.flat_map(|message| &message.parameters);
+    let mut all = results.chain(arguments).chain(events).chain(said);
     all.find(|ctype| is_wanted(ctype.kind)).map(|ctype| ctype.name.clone())
 }
 

@@ -2,9 +2,11 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::cycle::{event_name, no_event, store, wrapped};
+use super::cycle::store;
+use super::events::{event_name, no_event, wrapped};
 use super::header::init_prototype;
 use super::helpers::Helpers;
+use super::messages;
 use super::names::{Names, argument, argument_names};
 use super::spelling::conjunction;
 use super::state::{
@@ -52,6 +54,7 @@ pub(super) fn interface(
         writer.line("");
         set(writer, program, names, helpers, belief);
     }
+    messages::receive(writer, program, names, helpers);
 }
 
 /// Drops all events and posts the initial goal.
@@ -63,7 +66,10 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
             let trigger = handler_name(program, *handler);
             for (index, value) in values.iter().enumerate() {
                 let field = names.field(&slot_value(Slot::Posted, &trigger, index));
-                writer.line(format!("{field} = {};", constant_text(value)));
+                match value {
+                    Value::Me => writer.line(format!("{field} = {};", names.field("me"))),
+                    value => writer.line(format!("{field} = {};", constant_text(value))),
+                }
             }
             let event = event_name(names, Slot::Posted, &trigger);
             writer.line(format!("{} = {event};", names.field("posted")));
@@ -84,6 +90,7 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
             writer.line(format!("{} = 0U;", names.field(external_count(program))));
         }
     }
+    messages::forget(writer, program, names);
     for external in program.external.iter().filter(|external| external.preemptive) {
         let flag = pending(Slot::Preemptive, &external_name(external));
         writer.line(format!("{} = false;", names.field(&flag)));
@@ -102,9 +109,12 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
 }
 
 fn init(writer: &mut Writer, program: &Program, names: &Names) {
-    writer.open(init_prototype(names));
+    writer.open(init_prototype(program, names));
     if names.is_context() {
         writer.line("self->environment = environment;");
+    }
+    if program.has_peers() {
+        writer.line(format!("{} = me;", names.field("me")));
     }
     nothing_is_left(writer, program, names);
     for belief in &program.beliefs {
@@ -175,6 +185,7 @@ fn initial_fields(program: &Program) -> HashSet<String> {
         let trigger = handler_name(program, *handler);
         fields.extend((0..values.len()).map(|index| slot_value(Slot::Posted, &trigger, index)));
     }
+    fields.extend(program.has_peers().then(|| "me".to_owned()));
     fields
 }
 
@@ -196,7 +207,11 @@ fn zero(ctype: &CType) -> Option<&'static str> {
 fn constant_text(value: &Value) -> &str {
     match value {
         Value::Constant(text, _) => text,
-        Value::Variable(_) | Value::Call(_) | Value::Negate(_) | Value::Arithmetic(_) => {
+        Value::Variable(_)
+        | Value::Me
+        | Value::Call(_)
+        | Value::Negate(_)
+        | Value::Arithmetic(_) => {
             unreachable!("analysis lets only constants into initial beliefs and goals")
         }
     }

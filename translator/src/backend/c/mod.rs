@@ -7,6 +7,7 @@
 mod cycle;
 mod emitter;
 mod equivalence;
+mod events;
 mod exercise;
 mod expression;
 mod handlers;
@@ -17,8 +18,10 @@ mod host;
 mod interface;
 mod literal;
 mod locals;
+mod messages;
 mod names;
 mod plan;
+mod said;
 mod scripted;
 mod spelling;
 mod state;
@@ -38,6 +41,7 @@ pub(crate) use self::exercise::{
 pub(crate) use self::handlers::plan_name;
 pub(crate) use self::harness::{Moment, harness, unknown_type};
 pub use self::host::{ANSWERS, CALLS, STEPS};
+pub(crate) use self::messages::received;
 pub use self::names::include_path;
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::scripted::scripted;

@@ -11,11 +11,17 @@ use crate::types::CType;
 pub(super) struct Names {
     instance: Instance,
     prefix: String,
+    /// The agent is told which of its peers it is.
+    has_peers: bool,
 }
 
 impl Names {
     pub(super) fn new(program: &Program) -> Self {
-        Self { instance: program.instance, prefix: symbol_prefix(program) }
+        Self {
+            instance: program.instance,
+            prefix: symbol_prefix(program),
+            has_peers: program.has_peers(),
+        }
     }
 
     pub(super) fn is_context(&self) -> bool {
@@ -69,9 +75,10 @@ impl Names {
         format!("{}({})", self.interface(name), self.arguments(arguments))
     }
 
-    /// A call of `init()` with this pointer of the environment, if it has one.
-    pub(super) fn init_call(&self, environment: &str) -> String {
-        self.call("init", self.is_context().then(|| environment.to_owned()))
+    /// A call of `init()` with this pointer of the environment, if it has one, and as this peer, if it has peers.
+    pub(super) fn init_call(&self, environment: &str, me: &str) -> String {
+        let environment = self.is_context().then(|| environment.to_owned());
+        self.call("init", environment.into_iter().chain(self.has_peers.then(|| me.to_owned())))
     }
 
     /// The arguments of a call inside the agent.

@@ -4,7 +4,9 @@ use super::emitter::PlanEmitter;
 use super::names::{argument, typed};
 use super::spelling::{conjunction, parenthesised};
 use super::state::{belief_value, handler_name, held, limited_types};
-use crate::program::{BeliefId, Handler, HandlerId, Pattern, Raise, Step, Value, VariableId};
+use crate::program::{
+    BasicId, BeliefId, Handler, HandlerId, Pattern, Raise, Step, Value, VariableId,
+};
 use crate::types::CType;
 
 impl PlanEmitter<'_> {
@@ -101,10 +103,28 @@ impl PlanEmitter<'_> {
                 let trigger = handler_name(self.program, *handler);
                 self.writer.line(format!("defer_{trigger}({arguments});"));
             }
+            Step::Broadcast { basic, values, .. } => self.broadcast(*basic, values),
             Step::Ask { belief, patterns, plans: None } => self.ask_beliefs(*belief, patterns),
             Step::Ask { belief, patterns, plans: Some(plans) } => {
                 self.ask(*belief, patterns, *plans);
             }
+        }
+    }
+
+    /// The action for each peer but oneself.
+    fn broadcast(&mut self, basic: BasicId, values: &[Value]) {
+        let program = self.program;
+        let values = self.values(values);
+        let function = self.names.action(program.basic(basic));
+        let me = self.names.field("me");
+        for number in 0..program.configuration.peers.len() {
+            let peer = program.peer(number);
+            let arguments: Vec<String> =
+                std::iter::once(peer.clone()).chain(values.clone()).collect();
+            let arguments = self.names.action_arguments(&arguments);
+            self.writer.open(format!("if ({me} != {peer})"));
+            self.writer.line(format!("{function}({arguments});"));
+            self.writer.close("}");
         }
     }
 
@@ -233,7 +253,12 @@ impl PlanEmitter<'_> {
     }
 
     /// Runs or posts the plans of a percept if the belief has changed.
-    fn raise(&mut self, changed: &str, raise: Raise, values: Vec<String>) {
+    fn raise(&mut self, changed: &str, raise: Raise, mut values: Vec<String>) {
+        if let Raise::Post(handler) | Raise::Call(handler) = raise
+            && self.program.handler(handler).sourced
+        {
+            values.push(self.names.field("me"));
+        }
         match raise {
             Raise::Nothing => {}
             Raise::Post(handler) => {

@@ -2,6 +2,7 @@
 
 use super::host::{Host, counts, update};
 use super::literal::literal;
+use super::messages::received;
 use super::names::{Names, typed};
 use super::state::external_name;
 use super::trace::{TRACE, ask, make, trace_call, trace_result, traced};
@@ -101,7 +102,7 @@ impl Builder<'_> {
                 writer.line(format!("asl2c_{name}_left = 1U;"));
             }
         }
-        writer.line(format!("{};", self.names.init_call("0")));
+        writer.line(format!("{};", self.names.init_call("0", "0U")));
         writer.close("}");
         writer.line("");
     }
@@ -123,6 +124,18 @@ impl Builder<'_> {
                     ));
                     writer
                         .line(format!("{};", self.names.call(&name, self.literals(values, types))));
+                }
+                Act::Receive(performative, about, values) => {
+                    let mut functions = received(self.program).into_iter();
+                    let function = functions
+                        .find(|one| one.performative == *performative && one.about == *about);
+                    if let Some(function) = function {
+                        self.ask(writer, &function.name, values, &function.types);
+                    }
+                }
+                Act::Be(peer) => {
+                    let call = self.names.init_call("0", &format!("{peer}U"));
+                    make(writer, "init", &call);
                 }
                 Act::Answer(function, values) => {
                     answers += 1;
@@ -146,11 +159,15 @@ impl Builder<'_> {
 
     fn raise(&self, writer: &mut Writer, event: &ExternalTrigger, values: &[Value]) {
         let Some((_, external)) = self.program.raised(event) else { return };
-        let name = external_name(external);
-        let call = self.traced_call(&name, values, &external.types);
+        self.ask(writer, &external_name(external), values, &external.types);
+    }
+
+    /// Makes a call that returns whether it was accepted.
+    fn ask(&self, writer: &mut Writer, name: &str, values: &[Value], types: &[CType]) {
+        let call = self.traced_call(name, values, types);
         writer.line(format!("asl2c_trace_text({});", c_string(&format!("> {call} = "))));
-        let arguments = self.literals(values, &external.types);
-        writer.line(format!("asl2c_trace_bool({});", self.names.call(&name, arguments)));
+        let arguments = self.literals(values, types);
+        writer.line(format!("asl2c_trace_bool({});", self.names.call(name, arguments)));
         writer.line("asl2c_trace_text(\"\\n\");");
     }
 

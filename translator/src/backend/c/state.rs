@@ -1,5 +1,8 @@
 //! The layout of the agent's state, one list for the C struct and its Rust mirror.
 
+use super::said::{
+    TURNS, asked_name, asked_types, has_values, noticed, ring_field, ring_parts, told_name,
+};
 use crate::configuration::Instance;
 use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
 use crate::syntax::ast::TriggerKind;
@@ -43,6 +46,9 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
             layout.field(name, FieldType::Value(ctype.clone()), None);
         }
     }
+    if program.has_peers() {
+        layout.field("me".to_owned(), FieldType::Value(CType::peer()), None);
+    }
     layout.field("posted".to_owned(), FieldType::Event, None);
     for id in &program.posted {
         layout.events.push(event(Slot::Posted, &handler_name(program, *id)));
@@ -54,6 +60,7 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
         layout.events.push(event(Slot::Perceived, &trigger));
         layout.field(pending(Slot::Perceived, &trigger), FieldType::Flag, None);
     }
+    layout.messages(program);
     layout.rings(program);
     layout.inbox(program);
     layout.preemptive(program);
@@ -88,6 +95,35 @@ impl StateLayout {
                 let name = slot_value(Slot::Deadline, &trigger, index);
                 self.field(name, FieldType::Value(ctype.clone()), None);
             }
+        }
+    }
+
+    fn messages(&mut self, program: &Program) {
+        let [asked_turn, told_turn] = TURNS;
+        if !program.asked.is_empty() {
+            self.field(asked_turn.to_owned(), FieldType::Count, None);
+        }
+        if has_values(program) {
+            self.field("asked_taken".to_owned(), FieldType::Count, None);
+        }
+        for asked in &program.asked {
+            let name = asked_name(program, asked);
+            self.events.push(event(Slot::Asked, &name));
+            for part in ring_parts(program, asked) {
+                self.field(ring_field(program, asked, part), FieldType::Count, None);
+            }
+            for (index, ctype) in asked_types(program, asked).iter().enumerate() {
+                let place = slot_value(Slot::Asked, &name, index);
+                self.field(place, FieldType::Value(ctype.clone()), Some(asked.room));
+            }
+        }
+        if noticed(program).next().is_some() {
+            self.field(told_turn.to_owned(), FieldType::Count, None);
+        }
+        for told in noticed(program) {
+            let name = told_name(program, told);
+            self.events.push(event(Slot::Told, name));
+            self.field(pending(Slot::Told, name), FieldType::Flag, None);
         }
     }
 
@@ -190,6 +226,10 @@ pub(super) enum Slot {
     Perceived,
     /// Posted with `!!`.
     Deferred,
+    /// A goal that a peer asks for.
+    Asked,
+    /// A belief that a peer told or took back.
+    Told,
 }
 
 impl Slot {
@@ -201,6 +241,8 @@ impl Slot {
             Self::Preemptive => "preemptive",
             Self::Perceived => "perceived",
             Self::Deferred => "deferred",
+            Self::Asked => "asked",
+            Self::Told => "told",
         }
     }
 }

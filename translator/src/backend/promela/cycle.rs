@@ -55,6 +55,7 @@ impl Emission<'_> {
             self.say(&format!("set {index}"));
             self.writer.line("goto finished");
         }
+        self.say_something();
         self.writer.line(":: true");
         self.writer.line("fi;");
     }
@@ -126,6 +127,7 @@ impl Emission<'_> {
             ));
             before.push(format!("!{flag}"));
         }
+        self.take_messages(&mut before);
         for queue in self.queues() {
             let name = queue.name;
             let waiting = format!("len({name}) > 0");
@@ -157,6 +159,8 @@ impl Emission<'_> {
                     self.writer.line(":: else -> goto take");
                     self.writer.line("fi");
                 }
+                Waiting::Asked(index) => self.run(self.program.asked[index].handler),
+                Waiting::Told(index) => self.handle_told(index),
                 Waiting::External(index) => self.handle_external(index),
                 Waiting::Deferred(id) => {
                     if !self.program.configuration.settings.queue {
@@ -192,7 +196,7 @@ impl Emission<'_> {
         }
     }
 
-    fn run_or_take(&mut self, handler: Option<HandlerId>) {
+    pub(super) fn run_or_take(&mut self, handler: Option<HandlerId>) {
         match handler {
             Some(handler) => self.run(handler),
             None => self.writer.line("goto take"),

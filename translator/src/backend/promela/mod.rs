@@ -12,6 +12,7 @@
 mod choice;
 mod cycle;
 mod logic;
+mod messages;
 mod monitor;
 mod plan;
 mod scale;
@@ -37,6 +38,10 @@ pub(crate) enum Waiting {
     Overdue(HandlerId),
     /// A belief was changed.
     Perceived(BeliefId, HandlerId),
+    /// Asked for by a peer: an index into what the program is asked for.
+    Asked(usize),
+    /// Told or taken back by a peer: an index into what the program is told.
+    Told(usize),
     /// Raised by the environment: an index into the program's external events.
     External(usize),
     /// Posted with `!!`.
@@ -52,6 +57,8 @@ pub(crate) fn events(program: &Program) -> Vec<Waiting> {
     (program.posted.iter().map(|id| Waiting::Posted(*id)))
         .chain(program.limited.iter().map(|id| Waiting::Overdue(*id)))
         .chain(perceived)
+        .chain((0..program.asked.len()).map(Waiting::Asked))
+        .chain((0..program.told.len()).map(Waiting::Told))
         .chain((0..program.external.len()).map(Waiting::External))
         .chain(program.deferred.iter().map(|id| Waiting::Deferred(*id)))
         .collect()
@@ -132,6 +139,7 @@ impl Emission<'_> {
                 writer.line(format!("bool perceived_{index};"));
             }
         }
+        self.declare_messages();
         let goal = program.initial_goal.as_ref().map(|(id, _)| Waiting::Posted(*id));
         let goal = goal.map_or(0, |goal| self.number(goal));
         let number = self.number_type();

@@ -153,7 +153,7 @@ impl Emission<'_> {
         self.effects(id, step, *line);
         match step {
             // Their calls are made by `effects`.
-            Step::Action(_) | Step::Assign { .. } => {}
+            Step::Action(_) | Step::Assign { .. } | Step::Broadcast { .. } => {}
             Step::Add { belief, raise, .. } => self.add(id, *belief, *raise, *line),
             Step::Delete { belief, patterns, raise } => {
                 let matching = Choice { holds: self.held(*belief), fails: matches(patterns).fails };

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::Comparison;
 use crate::backend::c::host::{CALLS, STEPS};
 use crate::backend::c::literal::literal;
+use crate::backend::c::messages::{Received, received};
 use crate::backend::c::state::external_name;
 use crate::configuration::ExternalTrigger;
 use crate::interpreter::Value;
@@ -25,6 +26,16 @@ impl Comparison<'_> {
             match act {
                 Act::Raise(event, values) => self.raise(text, event, values),
                 Act::Set(belief, values) => self.set(text, belief, values),
+                Act::Receive(performative, about, values) => {
+                    let mut functions = received(self.program).into_iter();
+                    let function = functions
+                        .find(|one| one.performative == *performative && one.about == *about);
+                    if let Some(function) = function {
+                        self.receive(text, &function, values);
+                    }
+                }
+                // The known beginning is that of the first peer.
+                Act::Be(_) => {}
                 Act::Answer(function, values) => {
                     let mut basics = self.program.configuration.basics.iter().enumerate();
                     let found = basics.find(|(_, basic)| basic.name.text == *function);
@@ -73,6 +84,20 @@ impl Comparison<'_> {
         let given = given.join(", ");
         _ = writeln!(text, "        bool accepted = {raised};");
         _ = writeln!(text, "        bool expected = plain_raise_{number}({given});");
+        _ = writeln!(
+            text,
+            "        plain_assert(accepted == expected, \"another result of {name}\");"
+        );
+        text.push_str("        plain_compare();\n    }\n");
+    }
+
+    fn receive(&self, text: &mut String, function: &Received, values: &[Value]) {
+        let name = &function.name;
+        let given = self.given(text, name, values, &function.types);
+        let received = self.names.call(name, given.clone());
+        let given = given.join(", ");
+        _ = writeln!(text, "        bool accepted = {received};");
+        _ = writeln!(text, "        bool expected = plain_{name}({given});");
         _ = writeln!(
             text,
             "        plain_assert(accepted == expected, \"another result of {name}\");"

@@ -1,6 +1,7 @@
 //! The states from which a step starts, by its event.
 
 use super::Comparison;
+use crate::backend::c::said::{asked_name, noticed, ring_field, told_name};
 use crate::backend::c::state::{
     Ring, Slot, deferred_ring, external_name, handler_name, inbox_ring, limits, pending,
 };
@@ -65,6 +66,7 @@ impl Comparison<'_> {
             cases.push(Case { name: format!("+{} is perceived", belief.name), fields });
             before.push((flag, "false".to_owned()));
         }
+        self.messages(&mut before, &mut cases);
         if let Some(ring) = inbox_ring(program) {
             self.first(&ring, &self.listed_events(), &mut before, &mut cases);
         }
@@ -73,6 +75,27 @@ impl Comparison<'_> {
         }
         cases.push(Case { name: "nothing happens".to_owned(), fields: before });
         cases
+    }
+
+    /// The first message that waits, in the order of their declarations: with any turn, every other may be the next event.
+    fn messages(&self, before: &mut Fields, cases: &mut Vec<Case>) {
+        let program = self.program;
+        for asked in &program.asked {
+            let (name, count) = (asked_name(program, asked), ring_field(program, asked, "count"));
+            let count = self.names.field(&count);
+            for waiting in 1..=asked.room {
+                let fields = with(before, [(count.clone(), format!("{waiting}U"))]);
+                cases.push(Case { name: format!("+!{name} waits ({waiting} of them)"), fields });
+            }
+            before.push((count, "0U".to_owned()));
+        }
+        for told in noticed(program) {
+            let name = told_name(program, told);
+            let flag = self.names.field(&pending(Slot::Told, name));
+            let fields = with(before, [(flag.clone(), "true".to_owned())]);
+            cases.push(Case { name: format!("a change of {name} waits"), fields });
+            before.push((flag, "false".to_owned()));
+        }
     }
 
     /// The events of the list, as in [`Self::listed`].

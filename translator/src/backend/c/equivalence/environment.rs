@@ -12,6 +12,7 @@ use std::fmt::Write as _;
 use super::Comparison;
 use crate::backend::c::host::{Call, changes, choose, counts, record};
 use crate::backend::c::names::{listed, typed_arguments};
+use crate::backend::c::said::{ring_field, ring_parts};
 use crate::backend::c::state::{
     FieldType, Slot, belief_value, handler_name, held, layout, pending, rings,
 };
@@ -103,6 +104,11 @@ impl Comparison<'_> {
                     writer.line(same_result("accepted", "expected", &name));
                 }
                 Call::Set(belief) => self.set_alone(writer, belief, &made, &values),
+                Call::Receive(_) => {
+                    writer.line(format!("bool accepted = {made};"));
+                    writer.line(format!("bool expected = plain_{name}({values});"));
+                    writer.line(same_result("accepted", "expected", &name));
+                }
                 Call::Clear => {
                     writer.line(format!("{made};"));
                     writer.line("plain_clear();");
@@ -172,7 +178,7 @@ impl Comparison<'_> {
 
     /// The start: `init()` of memory that holds anything.
     pub(super) fn base(&self, text: &mut String) {
-        let (init, state) = (self.init(), self.names.state_type());
+        let (init, state) = (self.init(true), self.names.state_type());
         let place = if self.names.is_context() { "*self" } else { "agent" };
         _ = writeln!(
             text,
@@ -181,9 +187,22 @@ impl Comparison<'_> {
         );
     }
 
-    /// Both start.
-    pub(super) fn init(&self) -> String {
-        format!("    {};\n    plain_init();\n", self.names.init_call("plain_environment"))
+    /// Both start, as any peer or as the first.
+    pub(super) fn init(&self, is_any: bool) -> String {
+        let peers = self.program.configuration.peers.len();
+        if peers == 0 {
+            let call = self.names.init_call("plain_environment", "");
+            return format!("    {call};\n    plain_init();\n");
+        }
+        let peer = CType::peer();
+        // A search makes what a script can say.
+        let me = if is_any { self.any(&peer) } else { "0U".to_owned() };
+        let call = self.names.init_call("plain_environment", "plain_me");
+        format!(
+            "    {} plain_me = {me};\n    __CPROVER_assume(plain_me < {peers});\n    {call};\n    \
+             plain_init(plain_me);\n",
+            peer.name
+        )
     }
 
     /// Any state of the C, and of all that it does not know.
@@ -218,6 +237,12 @@ impl Comparison<'_> {
             }
         }
         // An index, even in states that are not well-formed.
+        for asked in &self.program.asked {
+            if ring_parts(self.program, asked).contains(&"first") {
+                let first = self.names.field(&ring_field(self.program, asked, "first"));
+                _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", asked.room);
+            }
+        }
         for ring in rings(self.program) {
             let first = self.names.field(&ring.field("first"));
             _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", ring.length);

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Comparison;
+use crate::backend::c::said::{TURNS, asked_name, asked_types, noticed, ring_field, told_name};
 use crate::backend::c::state::{
     Ring, Slot, belief_value, counters, deferred_ring, external_name, handler_name, held,
     inbox_ring, limited_types, limits, pending, slot_value,
@@ -49,6 +50,7 @@ impl Comparison<'_> {
         let mut relation = Relation::default();
         self.beliefs(&mut relation);
         self.posted(&mut relation);
+        self.said(&mut relation);
         self.list(&mut relation);
         self.goals(&mut relation);
         for counter in counters(self.program) {
@@ -99,11 +101,20 @@ impl Comparison<'_> {
             let name = &belief.name;
             let place = format!("held_{name}");
             relation.number(&format!("belief {name}"), &place, &self.names.field(&held(name)));
+            // The last values of what a peer took back matter until that is noticed.
+            let told = self.program.told.iter().enumerate().find(|(_, told)| {
+                std::ptr::eq(self.program.belief(told.belief), belief)
+                    && (told.added.is_some() || told.removed.is_some())
+            });
+            let matters = match told {
+                Some((index, _)) => format!("plain.{place} || plain.told_{index}"),
+                None => format!("plain.{place}"),
+            };
             for (index, ctype) in belief.types.iter().enumerate() {
                 let element = Element {
                     name: format!("belief {name}"),
                     place: format!("value_{name}_{index}"),
-                    matters: format!("plain.{place}"),
+                    matters: matters.clone(),
                     ctype: Some(ctype.clone()),
                 };
                 relation.value(element, &self.names.field(&belief_value(name, index)));
@@ -177,6 +188,51 @@ impl Comparison<'_> {
                 ctype: Some(ctype.clone()),
             };
             relation.value(element, &self.names.field(&slot_value(slot, &trigger, index)));
+        }
+    }
+
+    /// Who the agent is, and what its peers say.
+    fn said(&self, relation: &mut Relation) {
+        let program = self.program;
+        let number = |name: &str| format!("(int){}", self.names.field(name));
+        if !program.has_peers() {
+            return;
+        }
+        relation.number("who it is", "me", &number("me"));
+        let kinds = [!program.asked.is_empty(), noticed(program).next().is_some()];
+        for (turn, is_there) in TURNS.into_iter().zip(kinds) {
+            if is_there {
+                relation.number("whose turn it is", turn, &number(turn));
+            } else {
+                _ = writeln!(relation.read, "    to->{turn} = 0;");
+            }
+        }
+        for (index, asked) in program.asked.iter().enumerate() {
+            let name = asked_name(program, asked);
+            let place = format!("asked_{index}");
+            let count = number(&ring_field(program, asked, "count"));
+            relation.number(&format!("the number of +!{name}"), &place, &count);
+            for (argument, ctype) in asked_types(program, asked).iter().enumerate() {
+                let first = self.names.field(&ring_field(program, asked, "first"));
+                let field = self.names.field(&slot_value(Slot::Asked, &name, argument));
+                for slot in 0..asked.room {
+                    let element = Element {
+                        name: format!("arguments of +!{name}"),
+                        place: format!("asked_{index}_{argument}[{slot}]"),
+                        matters: format!("plain.{place} > {slot}"),
+                        ctype: Some(ctype.clone()),
+                    };
+                    let from = format!("{field}[({first} + {slot}U) % {}U]", asked.room);
+                    relation.value(element, &from);
+                }
+            }
+        }
+        for (index, told) in program.told.iter().enumerate() {
+            if told.added.is_some() || told.removed.is_some() {
+                let name = told_name(program, told);
+                let flag = self.names.field(&pending(Slot::Told, name));
+                relation.number(&format!("a change of {name}"), &format!("told_{index}"), &flag);
+            }
         }
     }
 

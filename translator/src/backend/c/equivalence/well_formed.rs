@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::Comparison;
 use super::relation::numbered;
+use crate::backend::c::said::{TURNS, noticed, ring_field, ring_parts};
 use crate::backend::c::state::{
     Ring, Slot, deferred_ring, external_count, handler_name, held, inbox_ring, limits, pending,
     perceived,
@@ -40,6 +41,22 @@ impl Comparison<'_> {
             if !program.is_deleted(belief) {
                 let pending = field(&pending(Slot::Perceived, &handler_name(program, handler)));
                 unless(text, &format!("!{pending} || {}", field(&held(&belief.name))));
+            }
+        }
+        if program.has_peers() {
+            let peers = program.configuration.peers.len();
+            unless(text, &format!("{} < {peers}U", field("me")));
+            let kinds = [!program.asked.is_empty(), noticed(program).next().is_some()];
+            for (turn, _) in TURNS.into_iter().zip(kinds).filter(|(_, is_there)| *is_there) {
+                unless(text, &format!("{} < {peers}U", field(turn)));
+            }
+        }
+        for asked in &program.asked {
+            for (part, relation) in [("count", "<="), ("first", "<")] {
+                if ring_parts(program, asked).contains(&part) {
+                    let place = field(&ring_field(program, asked, part));
+                    unless(text, &format!("{place} {relation} {}U", asked.room));
+                }
             }
         }
         if let Some(ring) = inbox_ring(program) {

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{Builder, occupied};
-use crate::backend::c::cycle::{event_name, no_event};
+use crate::backend::c::events::{event_name, no_event};
+use crate::backend::c::messages::waits;
+use crate::backend::c::said::{ring_field, ring_parts};
 use crate::backend::c::state::{
     Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held, pending,
     perceived, queued, rings,
@@ -30,6 +32,7 @@ impl Builder<'_> {
         posted_or_none.push(none.clone());
         candidates.push(any_of("self->posted", &posted_or_none));
         self.rings_are_sound(&mut candidates);
+        self.messages_are_sound(&mut candidates);
         self.something_waits(&mut candidates, &none, &posted);
         for belief in &self.program.beliefs {
             let held = format!("self->{}", held(&belief.name));
@@ -103,6 +106,28 @@ impl Builder<'_> {
         }
     }
 
+    fn messages_are_sound(&self, candidates: &mut Vec<String>) {
+        let program = self.program;
+        let peers = program.configuration.peers.len();
+        if peers > 0 {
+            candidates.push(format!("(self->me < {peers}U)"));
+        }
+        for asked in &program.asked {
+            let count = ring_field(program, asked, "count");
+            candidates.push(format!("(self->{count} <= {}U)", asked.room));
+            if ring_parts(program, asked).contains(&"first") {
+                let first = ring_field(program, asked, "first");
+                candidates.push(format!("(self->{first} < {}U)", asked.room));
+            }
+        }
+        // It believes nothing of what it says itself.
+        for told in &program.told {
+            let held = held(&program.belief(told.belief).name);
+            candidates
+                .push(format!("(!self->{held} || (self->me != {}))", program.peer(told.sender)));
+        }
+    }
+
     fn something_waits(&self, candidates: &mut Vec<String>, none: &str, posted: &[String]) {
         let mut waiting = vec![format!("(self->posted != {none})")];
         waiting.extend(
@@ -116,6 +141,7 @@ impl Builder<'_> {
             let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
             waiting.push(format!("self->{flag}"));
         }
+        waiting.extend(waits(self.program, &self.names));
         // Events of the agent only, and with those of the environment.
         candidates.push(format!("({})", waiting.join(" || ")));
         if let Some(ring) = deferred_ring(self.program) {

@@ -1,7 +1,8 @@
 //! States of agents by what their next step handles.
 
 use super::Builder;
-use crate::backend::c::cycle::{event_name, no_event};
+use crate::backend::c::events::{event_name, no_event};
+use crate::backend::c::messages::silence;
 use crate::backend::c::state::{
     Slot, external_name, handler_name, inbox_ring, pending, perceived, queued,
 };
@@ -41,6 +42,7 @@ impl Builder<'_> {
             let flag = pending(Slot::Perceived, &handler_name(program, handler));
             calm.push(format!("self->{flag} = false;"));
         }
+        calm.extend(silence(program, &self.names).into_iter().map(|set| format!("{set};")));
         let Some(ring) = inbox_ring(program) else { return moments };
         calm.push(format!("self->{} = 0U;", ring.field("first")));
         calm.push(format!("self->{} = 1U;", ring.field("count")));
