@@ -80,6 +80,62 @@ fn main() {
 }
 "#;
 
+const PEERS: Case = Case {
+    basics: "void show(int); void who(peer);",
+    types: "go(void);",
+    sections: "peers { leader, wingman }; messages { tell at(int) from any; achieve visit(int) from leader, 2; };
+        triggerables { +!go; };",
+    agent: "+!go : at(X)[source(P)] & P \\== self <- show(X); who(P); .broadcast(tell, at(X + 1)).
+        +!visit(X)[source(P)] <- show(X); who(P). +at(_) <- .my_name(M); who(M).",
+};
+
+const PEERS_MAIN: &str = r#"
+mod bindings { include!("bindings.rs"); }
+use bindings::{Agent, Beliefs, Environment, Peer};
+struct World;
+impl Environment for World {
+    fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
+    fn show(&mut self, x: i32) { println!("show {x}"); }
+    fn who(&mut self, peer: u8) { println!("who {peer}"); }
+    fn send_tell_at(&mut self, to: u8, x: i32) { println!("send {to} {x}"); }
+}
+fn main() {
+    let mut agent = Agent::new(Peer::Wingman);
+    let leader = Peer::Leader as u8;
+    println!("{}", agent.receive_tell_at(Peer::Wingman as u8, 1));
+    println!("{}", agent.receive_tell_at(leader, 4));
+    println!("{}", agent.receive_achieve_visit(leader, 5));
+    println!("{}", agent.receive_achieve_visit(7, 5));
+    println!("{}", agent.achieve_go());
+    for _ in 0..3 {
+        agent.next_step(&mut World);
+    }
+    println!("{} {}", agent.receive_untell_at(leader), agent.receive_unachieve_visit(leader));
+}
+"#;
+
+#[test]
+fn agents_that_talk_are_compiled_and_bound() {
+    PEERS.compile();
+    let folder = tempfile::tempdir().unwrap();
+    let translation = PEERS.translate("instance = context; rust = bindings.rs;").unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    std::fs::write(folder.path().join("main.rs"), PEERS_MAIN).unwrap();
+    let run = |program: &mut Command| {
+        let output = program.current_dir(folder.path()).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{:?}: {errors}", output.status);
+        String::from_utf8(output.stdout).unwrap()
+    };
+    run(Command::new("cc").args(["-c", "agent.c"]));
+    run(Command::new("rustc").args(["--edition", "2024", "-C", "link-arg=agent.o", "main.rs"]));
+    let printed = run(&mut Command::new(folder.path().join("main")));
+    let expected = "false true true false true show 5 who 0 who 1 show 4 who 0 send 0 5 true true";
+    assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" "), expected);
+}
+
 #[test]
 fn the_autopilot_passes_strict_compilation() {
     let configuration = include_str!("../../../autopilot/agent/autopilot.conf");

@@ -14,5 +14,6 @@ mod generated;
 mod guide;
 mod harness;
 mod hostile;
+mod messages;
 mod refused;
 mod validation;

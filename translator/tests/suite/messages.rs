@@ -1,0 +1,745 @@
+//! Random agents that talk, in random company, interpreted and compiled.
+//!
+//! Both must leave the same trace: all actions and messages that are sent with their arguments, all answers to what
+//! arrives, and all counters. An agent with its peers, and what it hears, are derived from lists of choices, which are
+//! shrunk on a failure. `ASL2C_MESSAGES=20000 cargo test -p translator messages` runs more agents than usual,
+//! `ASL2C_MESSAGES_SEED` other ones; `ASL2C_CC=clang` selects another compiler.
+
+use std::fmt::Write as _;
+use std::process::Command as Process;
+
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+use translator::interpreter::{Environment, Interpreter, Value};
+use translator::syntax::ast::{Operator, Performative, TriggerKind};
+use translator::types::CType;
+use translator::{ParsedConfiguration, parse_configuration, translate};
+
+use crate::harness::{STRICT, from_environment};
+
+const USUAL_AGENTS: u32 = 100;
+/// Each agent is run through at most this many sequences of commands.
+const SEQUENCES: usize = 16;
+/// Most commands of a sequence.
+const COMMANDS: usize = 60;
+/// Contexts are refused that have more ways to choose who told their beliefs.
+const MOST_WAYS: usize = 64;
+const PEERS: [&str; 4] = ["ann", "bob", "cid", "dee"];
+/// The number of nobody.
+const STRANGER: usize = 200;
+
+/// What the environment offers; all functions print their call.
+const BASICS: &str = "void act(int); void who(peer); void both(int, peer); bool even(int); bool odd(peer); \
+    int next(int); peer other(peer);";
+/// The same in C.
+const PRELUDE: &str = r#"
+#include <stdio.h>
+void updateBeliefs(void) { }
+void act(int x) { printf("act %d\n", x); }
+void who(peer_t x) { printf("who %d\n", (int)x); }
+void both(int x, peer_t y) { printf("both %d %d\n", x, (int)y); }
+bool even(int x) { printf("even %d\n", x); return (x % 2) == 0; }
+bool odd(peer_t x) { printf("odd %d\n", (int)x); return (x % 2U) == 1U; }
+int next(int x) { printf("next %d\n", x); return (x == 3) ? 0 : ((x < 3) ? (x + 1) : 3); }
+peer_t other(peer_t x) { printf("other %d\n", (int)x); return (x == 0U) ? 1U : 0U; }
+static void answer(bool yes) { printf("%s\n", yes ? "yes" : "no"); }
+"#;
+
+/// A list of choices; when it is exhausted, the simplest choice is taken.
+struct Choices<'a>(&'a [u8]);
+
+impl Choices<'_> {
+    /// One of `count` alternatives.
+    fn pick(&mut self, count: usize) -> usize {
+        let Some((first, rest)) = self.0.split_first() else { return 0 };
+        self.0 = rest;
+        usize::from(*first) % count
+    }
+
+    /// True in `percent` of all cases.
+    fn chance(&mut self, percent: usize) -> bool {
+        self.pick(100) >= 100 - percent
+    }
+
+    fn of<T: Clone>(&mut self, alternatives: &[T]) -> T {
+        alternatives[self.pick(alternatives.len())].clone()
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Type {
+    Int,
+    Peer,
+}
+
+impl Type {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Int => "int",
+            Self::Peer => "peer",
+        }
+    }
+}
+
+/// A belief or a goal.
+#[derive(Debug, Clone)]
+struct Predicate {
+    name: &'static str,
+    is_goal: bool,
+    types: Vec<Type>,
+    /// The peers that tell it or ask for it; none if it is no message.
+    senders: Vec<usize>,
+    /// The environment sets the belief.
+    is_settable: bool,
+    /// The environment raises `+!goal`, or `+belief` and `-belief`.
+    is_raised: bool,
+}
+
+impl Predicate {
+    /// It may come from the agent itself or its environment.
+    fn is_own(&self) -> bool {
+        self.is_goal || self.is_settable || self.is_raised
+    }
+}
+
+/// A random agent with its configuration. Plans achieve and change only what is behind their own predicate.
+struct Talker {
+    peers: usize,
+    predicates: Vec<Predicate>,
+    configuration: String,
+    text: String,
+}
+
+/// What happens to an agent.
+#[derive(Debug, Clone)]
+enum Command {
+    Step,
+    /// The sender, what it does, the belief or goal, and arguments.
+    Receive(usize, Performative, &'static str, Vec<usize>),
+    /// `achieve`, `add` or `del`, the belief or goal, and arguments.
+    Raise(&'static str, &'static str, Vec<usize>),
+    Set(&'static str, Vec<usize>),
+    /// Begins again as this peer.
+    Init(usize),
+    Clear,
+}
+
+impl Talker {
+    fn new(choices: &mut Choices<'_>) -> Self {
+        let peers = 2 + choices.pick(3);
+        let mut predicates = Vec::new();
+        let (told, asked) = (1 + choices.pick(3), 1 + choices.pick(2));
+        // A belief and a goal may have the same name.
+        let goals = if choices.chance(20) { ["told1", "asked2"] } else { ["asked1", "asked2"] };
+        let messages = ["told1", "told2", "told3"].into_iter().take(told).map(|name| (name, false));
+        let messages = messages.chain(goals.into_iter().take(asked).map(|name| (name, true)));
+        for (name, is_goal) in messages {
+            let count = [0, 1, 1, 2, 2][choices.pick(5)];
+            let mut types: Vec<Type> =
+                (0..count).map(|_| choices.of(&[Type::Int, Type::Int, Type::Peer])).collect();
+            if let Some(same) = predicates.iter().find(|other: &&Predicate| other.name == name) {
+                types.clone_from(&same.types);
+            }
+            let mut senders: Vec<usize> = (0..peers).collect();
+            if choices.chance(50) {
+                senders.retain(|_| choices.chance(60));
+            }
+            if senders.is_empty() {
+                senders.push(choices.pick(peers));
+            }
+            let is_settable = !is_goal && choices.chance(40);
+            let is_raised = choices.chance(40);
+            let further = Predicate { name, is_goal, types, senders, is_settable, is_raised };
+            predicates.push(further);
+        }
+        let own = Predicate {
+            name: "own",
+            is_goal: false,
+            types: vec![Type::Int],
+            senders: Vec::new(),
+            is_settable: true,
+            is_raised: choices.chance(50),
+        };
+        let go = Predicate { name: "go", is_goal: true, types: Vec::new(), ..own.clone() };
+        predicates.extend([own, Predicate { is_settable: false, is_raised: true, ..go }]);
+        for index in (1..predicates.len()).rev() {
+            predicates.swap(index, choices.pick(index + 1));
+        }
+        let mut talker =
+            Self { peers, predicates, configuration: String::new(), text: String::new() };
+        talker.text = talker.text(choices);
+        talker.configuration = talker.configuration(choices);
+        talker
+    }
+
+    fn configuration(&self, choices: &mut Choices<'_>) -> String {
+        let [mut messages, mut settable, mut perceived, mut raised, mut preemptive] =
+            [const { String::new() }; 5];
+        for predicate in &self.predicates {
+            let Predicate { name, is_goal, types, senders, .. } = predicate;
+            if !senders.is_empty() {
+                let types: Vec<_> = types.iter().map(|ctype| ctype.name()).collect();
+                let mut from: Vec<&str> = senders.iter().map(|sender| PEERS[*sender]).collect();
+                // The order in which senders are declared has no meaning.
+                from.rotate_left(choices.pick(senders.len()));
+                let from =
+                    if from.len() == self.peers { "any".to_owned() } else { from.join(", ") };
+                let (verb, room) = match is_goal {
+                    true => ("achieve", choices.of(&["", ", 2", ", 3", ", 1"])),
+                    false => ("tell", ""),
+                };
+                _ = write!(messages, "{verb} {name}({}) from {from}{room}; ", types.join(", "));
+            }
+            if predicate.is_settable {
+                _ = write!(settable, "{name}; ");
+                if self.text.contains(&format!("\n+{name}")) && choices.chance(70) {
+                    _ = write!(perceived, "{name}; ");
+                }
+            }
+            if predicate.is_raised && *is_goal {
+                _ = write!(raised, "+!{name}; ");
+                if choices.chance(15) {
+                    _ = write!(preemptive, "+!{name}; ");
+                }
+            } else if predicate.is_raised {
+                _ = write!(raised, "+{name}; -{name}; ");
+            }
+        }
+        let queue = choices.of(&["inbox", "max_events"]);
+        let inbox = 1 + choices.pick(3);
+        format!(
+            "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; \
+             {queue} = {inbox}; }};\nbasics {{ {BASICS} }};\ntypes {{ own(int); go(void); }};\n\
+             peers {{ {} }};\nmessages {{ {messages}}};\nsettables {{ {settable}}};\n\
+             perceived {{ {perceived}}};\ntriggerables {{ {raised}}};\npreemptive {{ {preemptive}}};\n",
+            PEERS[..self.peers].join(", ")
+        )
+    }
+
+    fn text(&self, choices: &mut Choices<'_>) -> String {
+        let mut text = String::from("// An agent that talks.\n");
+        for Predicate { name, is_goal, types, .. } in &self.predicates {
+            // Peers are no constants.
+            if !is_goal && !types.contains(&Type::Peer) && choices.chance(25) {
+                let values: Vec<String> =
+                    types.iter().map(|_| choices.pick(4).to_string()).collect();
+                _ = writeln!(text, "{}.", call(name, &values));
+            }
+        }
+        text.push_str(choices.of(&["", "!go.\n"]));
+        for (level, predicate) in self.predicates.iter().enumerate() {
+            let [add, delete] = if predicate.is_goal { ["+!", "-!"] } else { ["+", "-"] };
+            let some = usize::from(predicate.is_goal) + choices.pick(3);
+            let others = choices.pick(5).saturating_sub(2);
+            for (operator, count) in [(add, some), (delete, others)] {
+                for _ in 0..count {
+                    let mut plan = Plan { talker: self, scope: Scope::default(), choices };
+                    text.push_str(&plan.text(operator, level));
+                }
+            }
+        }
+        text
+    }
+
+    fn sequence(&self, choices: &mut Choices<'_>) -> Vec<Command> {
+        let mut commands = vec![Command::Init(choices.pick(self.peers))];
+        while !choices.0.is_empty() && commands.len() < COMMANDS {
+            let predicate = choices.of(&self.predicates);
+            let Predicate { name, is_goal, types, .. } = &predicate;
+            let mut arguments: Vec<usize> = types
+                .iter()
+                .map(|ctype| match ctype {
+                    Type::Int => choices.pick(4),
+                    Type::Peer if choices.chance(5) => STRANGER,
+                    Type::Peer => choices.pick(self.peers),
+                })
+                .collect();
+            commands.push(match choices.pick(20) {
+                6..15 if !predicate.senders.is_empty() => {
+                    let from = if choices.chance(4) { STRANGER } else { choices.pick(self.peers) };
+                    let performative = match (is_goal, choices.chance(25)) {
+                        (false, false) => Performative::Tell,
+                        (false, true) => Performative::Untell,
+                        (true, false) => Performative::Achieve,
+                        (true, true) => Performative::Unachieve,
+                    };
+                    if !performative.has_arguments() {
+                        arguments.clear();
+                    }
+                    Command::Receive(from, performative, name, arguments)
+                }
+                15 | 16 if predicate.is_settable => Command::Set(name, arguments),
+                17 | 18 if predicate.is_raised => match (is_goal, choices.chance(40)) {
+                    (true, _) => Command::Raise("achieve", name, arguments),
+                    (false, false) => Command::Raise("add", name, arguments),
+                    (false, true) => Command::Raise("del", name, Vec::new()),
+                },
+                19 if choices.chance(30) => Command::Init(choices.pick(self.peers)),
+                19 if choices.chance(40) => Command::Clear,
+                _ => Command::Step,
+            });
+        }
+        commands
+    }
+}
+
+fn call(name: &str, arguments: &[String]) -> String {
+    if arguments.is_empty() { name.to_owned() } else { format!("{name}({})", arguments.join(", ")) }
+}
+
+/// Variables with a value.
+#[derive(Clone, Default)]
+struct Scope {
+    variables: Vec<(String, Type)>,
+    made: usize,
+    /// How many ways there are to choose who told the beliefs, less one.
+    further_ways: usize,
+}
+
+/// A plan while it is written.
+struct Plan<'a, 'b, 'c> {
+    talker: &'a Talker,
+    scope: Scope,
+    choices: &'b mut Choices<'c>,
+}
+
+impl Plan<'_, '_, '_> {
+    fn text(&mut self, operator: &str, level: usize) -> String {
+        let talker = self.talker;
+        let predicate = &talker.predicates[level];
+        let arguments = self.patterns(&predicate.types);
+        let mut text = format!("{operator}{}", call(predicate.name, &arguments));
+        if !predicate.senders.is_empty() {
+            text.push_str(&self.source(predicate));
+        }
+        if self.choices.chance(70) {
+            _ = write!(text, " : {}", self.context(2));
+        }
+        let mut body: Vec<String> = (0..=self.choices.pick(4)).map(|_| self.step(level)).collect();
+        // Nobody else can cause this again.
+        if level == 0 && self.choices.chance(30) {
+            let again = if predicate.is_goal { "!" } else { "+" };
+            body.push(format!("{again}{}", self.called(predicate)));
+        }
+        _ = writeln!(text, " <- {}.", body.join("; "));
+        text
+    }
+
+    /// A new variable; it has a value behind the place where it is written.
+    fn fresh(&mut self, ctype: Type) -> String {
+        self.scope.made += 1;
+        let name = format!("V{}", self.scope.made);
+        self.scope.variables.push((name.clone(), ctype));
+        name
+    }
+
+    fn variable(&mut self, ctype: Type) -> Option<String> {
+        let known = self.scope.variables.iter().filter(|(_, other)| *other == ctype);
+        let known: Vec<&String> = known.map(|(name, _)| name).collect();
+        (!known.is_empty()).then(|| self.choices.of(&known).clone())
+    }
+
+    fn value(&mut self, ctype: Type) -> String {
+        match (self.choices.pick(9), self.variable(ctype), ctype) {
+            (0..5, Some(variable), _) => variable,
+            (5, Some(variable), Type::Int) => format!("{variable} + 1"),
+            (6, Some(variable), Type::Int) => format!("next({variable})"),
+            (6, Some(variable), Type::Peer) => format!("other({variable})"),
+            (_, _, Type::Int) => self.choices.pick(4).to_string(),
+            (7 | 8, _, Type::Peer) => "self".to_owned(),
+            (_, _, Type::Peer) => self.choices.of(&PEERS[..self.talker.peers]).to_owned(),
+        }
+    }
+
+    fn called(&mut self, predicate: &Predicate) -> String {
+        let values: Vec<String> = predicate.types.iter().map(|ctype| self.value(*ctype)).collect();
+        call(predicate.name, &values)
+    }
+
+    fn patterns(&mut self, types: &[Type]) -> Vec<String> {
+        let pattern = |ctype: &Type| match self.choices.pick(7) {
+            0..4 => self.fresh(*ctype),
+            4 => "_".to_owned(),
+            _ => self.value(*ctype),
+        };
+        types.iter().map(pattern).collect()
+    }
+
+    /// `[source(P)]`, or nothing.
+    fn source(&mut self, predicate: &Predicate) -> String {
+        let source = match (self.choices.pick(9), self.variable(Type::Peer)) {
+            (0 | 1, _) => return String::new(),
+            (2, _) => "_".to_owned(),
+            (3, Some(variable)) => variable,
+            (0..6, _) => self.fresh(Type::Peer),
+            (6, _) if predicate.is_own() => "self".to_owned(),
+            _ => PEERS[self.choices.of(&predicate.senders)].to_owned(),
+        };
+        format!("[source({source})]")
+    }
+
+    /// Whether a belief of so many sources is not too much for this context.
+    fn can_search(&mut self, sources: usize) -> bool {
+        let ways = (self.scope.further_ways + 1) * sources;
+        if ways <= MOST_WAYS {
+            self.scope.further_ways = ways - 1;
+        }
+        ways <= MOST_WAYS
+    }
+
+    fn context(&mut self, depth: usize) -> String {
+        let count = 1 + self.choices.pick(3);
+        (0..count).map(|_| self.condition(depth)).collect::<Vec<_>>().join(" & ")
+    }
+
+    /// A part whose variables are not known outside.
+    fn apart(&mut self, write: impl FnOnce(&mut Self) -> String) -> String {
+        let outside = self.scope.variables.clone();
+        let text = write(self);
+        self.scope.variables = outside;
+        text
+    }
+
+    /// A condition that binds this variable to a peer.
+    fn binding(&mut self, common: &str) -> String {
+        let told = &self.talker.predicates;
+        let told = told.iter().find(|belief| !belief.is_goal && !belief.senders.is_empty());
+        match told {
+            Some(told) if self.choices.chance(60) && self.can_search(told.senders.len() + 1) => {
+                format!("{}[source({common})]", call(told.name, &self.patterns(&told.types)))
+            }
+            _ => format!(".my_name({common})"),
+        }
+    }
+
+    /// A belief, most often one that peers tell.
+    fn belief(&mut self) -> String {
+        let beliefs = self.talker.predicates.iter().filter(|predicate| !predicate.is_goal);
+        let beliefs: Vec<&Predicate> = beliefs.collect();
+        let belief = self.choices.of(&beliefs);
+        if belief.senders.is_empty() || !self.can_search(belief.senders.len() + 1) {
+            return format!("own({})", self.patterns(&[Type::Int])[0]);
+        }
+        call(belief.name, &self.patterns(&belief.types)) + &self.source(belief)
+    }
+
+    fn condition(&mut self, depth: usize) -> String {
+        let ctype = self.choices.of(&[Type::Peer, Type::Int]);
+        let variable = self.variable(ctype);
+        match (self.choices.pick(if depth == 0 { 11 } else { 15 }), variable) {
+            (5..8, Some(variable)) => self.check(&variable, ctype),
+            (9, _) if self.choices.chance(60) => format!(".my_name({})", self.fresh(Type::Peer)),
+            (9, _) => format!(".my_name({})", self.choices.of(&PEERS[..self.talker.peers])),
+            (8 | 10, Some(variable)) => {
+                let function = if ctype == Type::Int { "next" } else { "other" };
+                format!("{} = {function}({variable})", self.fresh(ctype))
+            }
+            (11, _) => format!("not {}", self.apart(Self::belief)),
+            (12, _) => format!("not ({})", self.apart(|plan| plan.context(depth - 1))),
+            (13 | 14, _) => {
+                // A variable that both alternatives bind.
+                let common = format!("Common{}", self.scope.made);
+                self.scope.made += 1;
+                let parts = [(); 2].map(|()| {
+                    self.apart(|plan| match plan.choices.pick(3) {
+                        0 => plan.binding(&common),
+                        1 => format!("{} & {}", plan.binding(&common), plan.context(depth - 1)),
+                        _ => format!("{} & {}", plan.context(depth - 1), plan.binding(&common)),
+                    })
+                });
+                self.scope.variables.push((common, Type::Peer));
+                format!("({})", parts.join(" | "))
+            }
+            _ => {
+                let known = self.scope.variables.len();
+                let belief = self.belief();
+                match self.scope.variables[known..].last().cloned() {
+                    // It decides who told the belief.
+                    Some((variable, ctype)) if self.choices.chance(50) => {
+                        format!("{belief} & {}", self.check(&variable, ctype))
+                    }
+                    _ => belief,
+                }
+            }
+        }
+    }
+
+    /// A condition about the value of a variable.
+    fn check(&mut self, variable: &str, ctype: Type) -> String {
+        match (self.choices.pick(3), ctype) {
+            (0, Type::Int) => format!("even({variable})"),
+            (0, Type::Peer) => format!("odd({variable})"),
+            (_, _) => {
+                let right = match (self.value(ctype), ctype) {
+                    (same, Type::Int) if same == variable => "2".to_owned(),
+                    (same, Type::Peer) if same == variable => "self".to_owned(),
+                    (other, _) => other,
+                };
+                format!("{variable} {} {right}", self.choices.of(&["==", "\\=="]))
+            }
+        }
+    }
+
+    fn step(&mut self, level: usize) -> String {
+        let talker = self.talker;
+        let behind = &talker.predicates[level + 1..];
+        let [goals, beliefs] = [true, false].map(|is_goal| {
+            behind.iter().filter(|predicate| predicate.is_goal == is_goal).collect::<Vec<_>>()
+        });
+        match self.choices.pick(16) {
+            3..5 => {
+                let receiver = self.value(Type::Peer);
+                format!(".send({receiver}, {})", self.content())
+            }
+            5 => format!(".broadcast({})", self.content()),
+            6 => format!(".my_name({})", self.fresh(Type::Peer)),
+            7 | 8 if !beliefs.is_empty() => {
+                let belief = self.choices.of(&beliefs);
+                format!("+{}", self.called(belief))
+            }
+            9 if !beliefs.is_empty() => {
+                let belief = self.choices.of(&beliefs);
+                let wanted = belief.types.iter().map(|ctype| {
+                    if self.choices.chance(60) { "_".to_owned() } else { self.value(*ctype) }
+                });
+                let wanted: Vec<String> = wanted.collect();
+                format!("-{}", call(belief.name, &wanted))
+            }
+            10..13 if !goals.is_empty() => {
+                let goal = self.choices.of(&goals);
+                format!("!{}", self.called(goal))
+            }
+            13 => {
+                let goals = talker.predicates.iter().filter(|predicate| predicate.is_goal);
+                let goals: Vec<&Predicate> = goals.collect();
+                let goal = self.choices.of(&goals);
+                format!("!!{}", self.called(goal))
+            }
+            14 => {
+                let value = self.value(Type::Int);
+                format!("{} = next({value})", self.fresh(Type::Int))
+            }
+            1 => format!("who({})", self.value(Type::Peer)),
+            2 => format!("both({}, {})", self.value(Type::Int), self.value(Type::Peer)),
+            _ => format!("act({})", self.value(Type::Int)),
+        }
+    }
+
+    /// What is said: `tell, told1(3)`.
+    fn content(&mut self) -> String {
+        let messages = self.talker.predicates.iter().filter(|message| !message.senders.is_empty());
+        let messages: Vec<&Predicate> = messages.collect();
+        let message = self.choices.of(&messages);
+        let verb = if message.is_goal { "achieve" } else { "tell" };
+        if self.choices.chance(25) {
+            return format!("un{verb}, {}", message.name);
+        }
+        format!("{verb}, {}", self.called(message))
+    }
+}
+
+/// The trace of the interpreter.
+fn interpreted(mut agent: Interpreter, sequences: &[Vec<Command>]) -> String {
+    let mut trace = Trace::default();
+    let values = |arguments: &[usize]| -> Vec<Value> {
+        let numbers = arguments.iter().map(|argument| i128::try_from(*argument).unwrap());
+        numbers.map(Value::Integer).collect()
+    };
+    let answer = |accepted: bool| if accepted { "yes\n" } else { "no\n" };
+    for command in sequences.iter().flatten() {
+        match command {
+            Command::Step => {
+                agent.next_step(&mut trace);
+                let counts = (agent.unhandled_events(), agent.refused_events());
+                let aborted = agent.aborted_events();
+                _ = writeln!(trace.0, "step {} {} {aborted}", counts.0, counts.1);
+            }
+            Command::Receive(from, performative, name, arguments) => {
+                let accepted = agent.receive(*from, *performative, name, values(arguments));
+                trace.0.push_str(answer(accepted));
+            }
+            Command::Raise(verb, name, arguments) => {
+                let (operator, kind) = match *verb {
+                    "achieve" => (Operator::Add, TriggerKind::Achieve),
+                    "add" => (Operator::Add, TriggerKind::Belief),
+                    _ => (Operator::Delete, TriggerKind::Belief),
+                };
+                let accepted = agent.raise(operator, kind, name, values(arguments)).is_ok();
+                trace.0.push_str(answer(accepted));
+            }
+            Command::Set(name, arguments) => agent.set((*name).to_owned(), values(arguments)),
+            Command::Init(me) => {
+                agent.be(*me);
+                trace.0.push_str("init\n");
+            }
+            Command::Clear => agent.clear(),
+        }
+    }
+    trace.0
+}
+
+#[derive(Default)]
+struct Trace(String);
+
+impl Environment for Trace {
+    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
+        Vec::new()
+    }
+
+    fn call(&mut self, name: &str, arguments: &[Value], _: &CType) -> Option<Value> {
+        let integers = arguments.iter().map(|argument| match argument {
+            Value::Integer(value) => *value,
+            _ => unreachable!("there are only numbers and peers"),
+        });
+        let integers: Vec<i128> = integers.collect();
+        self.0.push_str(name);
+        for value in &integers {
+            _ = write!(self.0, " {value}");
+        }
+        self.0.push('\n');
+        match (name, integers.as_slice()) {
+            ("even" | "odd", [value]) => Some(Value::Bool((value % 2 == 1) == (name == "odd"))),
+            ("next", [value]) => {
+                Some(Value::Integer(if *value == 3 { 0 } else { 3.min(value + 1) }))
+            }
+            ("other", [value]) => Some(Value::Integer(i128::from(*value == 0))),
+            _ => None,
+        }
+    }
+}
+
+/// The trace of the compiled C, or why it cannot be compiled.
+fn compiled(
+    talker: &Talker,
+    parsed: &ParsedConfiguration,
+    sequences: &[Vec<Command>],
+) -> Result<String, String> {
+    let translation = translate(parsed, &talker.text).map_err(|error| error.to_string())?;
+    let folder = tempfile::tempdir().unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let preempts = translation.files.iter().any(|file| file.text.contains("aborted_events"));
+    let script = script(sequences, if preempts { "aborted_events()" } else { "0U" });
+    // One compilation unit, because compilation dominates the time.
+    let main = format!("#include \"agent.c\"\n{PRELUDE}{}{script}", sending(parsed));
+    std::fs::write(folder.path().join("main.c"), main).unwrap();
+    let compiler = std::env::var("ASL2C_CC").unwrap_or_else(|_| "cc".to_owned());
+    let mut compile = Process::new(&compiler);
+    if compiler == "cc" {
+        compile.args(STRICT).arg("-pipe");
+    }
+    let compile = compile.current_dir(folder.path()).args(["-o", "agent", "main.c"]);
+    let result = compile.output().unwrap();
+    if !result.status.success() {
+        let message = String::from_utf8_lossy(&result.stderr);
+        return Err(format!("{message}\n{}", translation.files[0].text));
+    }
+    let result = Process::new(folder.path().join("agent")).output().unwrap();
+    let trace = String::from_utf8_lossy(&result.stdout).into_owned();
+    if result.status.success() { Ok(trace) } else { Err(format!("{trace}{:?}", result.status)) }
+}
+
+/// The actions that send messages.
+fn sending(parsed: &ParsedConfiguration) -> String {
+    let mut text = String::new();
+    for action in parsed.declarations().sending() {
+        let (mut parameters, mut form, mut values) = (Vec::new(), String::new(), String::new());
+        for (index, ctype) in action.parameters.iter().enumerate() {
+            parameters.push(format!("{} x{index}", ctype.name));
+            form.push_str(" %d");
+            _ = write!(values, ", (int)x{index}");
+        }
+        let (name, parameters) = (&action.name.text, parameters.join(", "));
+        _ = writeln!(text, "void {name}({parameters}) {{ printf(\"{name}{form}\\n\"{values}); }}");
+    }
+    text
+}
+
+fn script(sequences: &[Vec<Command>], aborted: &str) -> String {
+    let mut text = format!(
+        "static void step(void) {{ next_step(); printf(\"step %u %u %u\\n\", (unsigned)unhandled_events(), \
+         (unsigned)refused_events(), (unsigned){aborted}); }}\nint main(void)\n{{\n"
+    );
+    for command in sequences.iter().flatten() {
+        let list = |arguments: &[usize]| {
+            arguments.iter().map(|argument| format!("{argument}")).collect::<Vec<_>>().join(", ")
+        };
+        match command {
+            Command::Step => text.push_str("step();\n"),
+            Command::Receive(from, performative, name, arguments) => {
+                let all = list(&[&[*from], arguments.as_slice()].concat());
+                _ = writeln!(text, "answer(receive_{}_{name}({all}));", performative.name());
+            }
+            Command::Raise(verb, name, arguments) => {
+                _ = writeln!(text, "answer({verb}_{name}({}));", list(arguments));
+            }
+            Command::Set(name, arguments) => _ = writeln!(text, "set_{name}({});", list(arguments)),
+            Command::Init(me) => _ = writeln!(text, "init({me}); puts(\"init\");"),
+            Command::Clear => text.push_str("clear();\n"),
+        }
+    }
+    text.push_str("return 0;\n}\n");
+    text
+}
+
+/// Runs one agent both ways; false if it is refused.
+fn agrees(agent: &[u8], sequences: &[Vec<u8>]) -> Result<bool, TestCaseError> {
+    let talker = Talker::new(&mut Choices(agent));
+    let sequences: Vec<Vec<Command>> =
+        sequences.iter().map(|choices| talker.sequence(&mut Choices(choices))).collect();
+    let parsed = parse_configuration("agent.conf", &talker.configuration)
+        .unwrap_or_else(|error| panic!("{}{error}", talker.configuration));
+    let Ok(interpreter) = Interpreter::new(&parsed, &talker.text) else { return Ok(false) };
+    let expected = interpreted(interpreter, &sequences);
+    let found = compiled(&talker, &parsed, &sequences);
+    if found.as_ref() == Ok(&expected) {
+        return Ok(true);
+    }
+    let found = found.unwrap_or_else(|error| error);
+    let first = expected.lines().zip(found.lines()).position(|(one, other)| one != other);
+    Err(TestCaseError::fail(format!(
+        "{}\n{}\n{sequences:?}\nline {first:?}\ninterpreted:\n{expected}\ncompiled:\n{found}",
+        talker.configuration, talker.text
+    )))
+}
+
+#[test]
+fn messages_of_random_agents() {
+    let agents = from_environment("ASL2C_MESSAGES", USUAL_AGENTS);
+    let seed = from_environment("ASL2C_MESSAGES_SEED", 1);
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = u32::try_from(workers).unwrap();
+    let threads: Vec<_> = (0..workers)
+        .map(|worker| {
+            std::thread::spawn(move || {
+                let mut seed_bytes = [0; 32];
+                seed_bytes[..4].copy_from_slice(&seed.to_le_bytes());
+                seed_bytes[4..8].copy_from_slice(&worker.to_le_bytes());
+                let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &seed_bytes);
+                let cases = agents.div_ceil(workers);
+                let config = Config {
+                    cases,
+                    max_shrink_iters: 400,
+                    failure_persistence: None,
+                    ..Config::default()
+                };
+                let translated = std::cell::Cell::new(0);
+                let bytes = |length| proptest::collection::vec(proptest::num::u8::ANY, length);
+                let choices =
+                    (bytes(100..600), proptest::collection::vec(bytes(80..300), 1..=SEQUENCES));
+                let result =
+                    TestRunner::new_with_rng(config, rng).run(&choices, |(agent, sequences)| {
+                        translated.set(translated.get() + u32::from(agrees(&agent, &sequences)?));
+                        Ok(())
+                    });
+                result.unwrap_or_else(|error| panic!("{error}"));
+                translated.get()
+            })
+        })
+        .collect();
+    let translated: u32 = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
+    println!(
+        "{translated} of {agents} agents translated, up to {SEQUENCES} sequences each: all agree"
+    );
+    assert!(translated * 2 > agents, "most agents should translate, {translated} of {agents} did");
+}
