@@ -210,6 +210,10 @@ fn act_line(act: &Act) -> String {
     match act {
         Act::Raise(event, values) => format!("{}({});", call_name(event), list(values)),
         Act::Set(belief, values) => format!("set_{belief}({});", list(values)),
+        Act::Receive(performative, about, values) => {
+            format!("receive_{}_{about}({});", performative.name(), list(values))
+        }
+        Act::Be(peer) => format!("init({peer});"),
         Act::Answer(function, values) => format!("{function}_result = {};", list(values)),
         Act::Clear => "clear();".to_owned(),
         Act::Step => "next_step();".to_owned(),

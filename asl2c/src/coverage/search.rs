@@ -202,7 +202,24 @@ impl<'a> Search<'a> {
     /// Anything that the environment may do between steps.
     fn act(&mut self, execution: &Execution<'_>) -> Option<Act> {
         let configuration = self.configuration;
-        match self.random.random_range(0..3) {
+        let messages = configuration.receiving();
+        // Without peers the choices are those of before.
+        match self.random.random_range(0..if messages.is_empty() { 3 } else { 6 }) {
+            5 => {
+                let peer = self.random.random_range(0..configuration.peers.len());
+                // Seldom, as everything begins again.
+                (self.random.random_range(0..4) == 0).then_some(Act::Be(peer))
+            }
+            3 | 4 => {
+                let (_, performative, message) =
+                    messages.get(self.random.random_range(0..messages.len()))?;
+                let types = message.said(*performative);
+                let values = types
+                    .iter()
+                    .map(|ctype| self.numbers.any(ctype, configuration, &mut self.random));
+                let about = message.name.text.clone();
+                Some(Act::Receive(*performative, about, values.collect()))
+            }
             0 => {
                 let events = &configuration.triggerables;
                 let event = events.get(self.random.random_range(0..events.len().max(1)))?;

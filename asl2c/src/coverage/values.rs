@@ -38,6 +38,11 @@ impl Numbers {
     ) -> Value {
         match ctype.kind {
             TypeKind::Bool => Value::Bool(random.random()),
+            _ if ctype.is_peer() => {
+                // One more than there are.
+                let peers = i128::try_from(configuration.peers.len()).unwrap_or(0);
+                Value::Integer(random.random_range(0..=peers))
+            }
             TypeKind::Signed { .. } | TypeKind::Unsigned { .. } => {
                 Value::Integer(self.integer(ctype, random))
             }

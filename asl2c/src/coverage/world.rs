@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
-use translator::configuration::Configuration;
+use translator::configuration::{Basic, Configuration};
 use translator::interpreter::{Decision, Environment, Interpreter, Value};
 use translator::types::{CType, TypeKind};
 use translator::{Act, traced};
@@ -51,6 +51,8 @@ pub(super) struct Execution<'a> {
 #[derive(Debug, Clone)]
 struct World<'a> {
     configuration: &'a Configuration,
+    /// The actions that send messages.
+    sending: Vec<Basic>,
     answers: BTreeMap<String, VecDeque<Value>>,
     trace: String,
     reached: BTreeSet<Goal>,
@@ -65,8 +67,13 @@ impl<'a> Execution<'a> {
             (basic.name.text.clone(), VecDeque::from([zero(&basic.result, configuration)]))
         });
         let answers = answers.collect();
-        let world =
-            World { configuration, answers, trace: String::new(), reached: BTreeSet::new() };
+        let world = World {
+            configuration,
+            sending: configuration.sending(),
+            answers,
+            trace: String::new(),
+            reached: BTreeSet::new(),
+        };
         Self { configuration, agent, world }
     }
 
@@ -144,6 +151,24 @@ impl<'a> Execution<'a> {
                 _ = writeln!(self.world.trace, "> set_{belief}({values_text})");
                 self.agent.set(belief.clone(), values.clone());
             }
+            Act::Receive(performative, about, values) => {
+                let message = self.configuration.message(*performative, about);
+                let types = message.map_or_else(Vec::new, |message| message.said(*performative));
+                let values_text = trace(values, &types);
+                let (sender, said) = match values.split_first() {
+                    Some((Value::Integer(sender), said)) => (usize::try_from(*sender), said),
+                    _ => return true,
+                };
+                let accepted = sender.is_ok_and(|sender| {
+                    self.agent.receive(sender, *performative, about, said.to_vec())
+                });
+                let call = format!("receive_{}_{about}", performative.name());
+                _ = writeln!(self.world.trace, "> {call}({values_text}) = {accepted}");
+            }
+            Act::Be(peer) => {
+                self.world.trace += "> init()\n";
+                self.agent.be(*peer);
+            }
             Act::Answer(function, values) => {
                 self.world.answers.insert(function.clone(), values.iter().cloned().collect());
             }
@@ -175,7 +200,8 @@ impl Environment for World<'_> {
     }
 
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
-        let basic = self.configuration.basics.iter().find(|basic| basic.name.text == name);
+        let mut actions = self.configuration.basics.iter().chain(&self.sending);
+        let basic = actions.find(|basic| basic.name.text == name);
         let types = basic.map_or(&[][..], |basic| &basic.parameters);
         let values = arguments.iter().zip(types);
         let values: Vec<String> =

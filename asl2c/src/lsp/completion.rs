@@ -64,6 +64,12 @@ impl Items {
         }
     }
 
+    fn peers(&mut self, configuration: &Configuration) {
+        for peer in &configuration.peers {
+            self.add(&peer.text, CompletionItemKind::EnumMember, "peer");
+        }
+    }
+
     /// The variables of a statement.
     fn variables(&mut self, statement: &str) {
         for word in statement.split(|c: char| !is_word(c)) {
@@ -111,8 +117,33 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
     }
     if let Some(formulae) = before.strip_suffix('.') {
         // Otherwise it is the full stop of the statement.
-        if formulae.trim_end().ends_with([';', '-']) {
+        let formulae = formulae.trim_end();
+        let has_peers = configuration.is_some_and(|known| !known.peers.is_empty());
+        if formulae.ends_with([';', '-']) {
             items.add("wait", CompletionItemKind::Keyword, ".wait(milliseconds)");
+            if has_peers {
+                items.add("send", CompletionItemKind::Keyword, ".send(peer, tell, belief)");
+                items.add("broadcast", CompletionItemKind::Keyword, ".broadcast(tell, belief)");
+            }
+        }
+        if has_peers && formulae.ends_with([';', '-', ':', '&', '|', 't', '(']) {
+            items.add("my_name", CompletionItemKind::Keyword, ".my_name(Variable)");
+        }
+        return;
+    }
+    if let Some(annotation) = annotation(before) {
+        let Some(configuration) = configuration.filter(|known| !known.peers.is_empty()) else {
+            return;
+        };
+        if before.contains("<-") {
+            return;
+        }
+        if annotation.is_empty() {
+            items.add("source", CompletionItemKind::Keyword, "source(peer)");
+        } else {
+            items.variables(before);
+            items.peers(configuration);
+            items.add("self", CompletionItemKind::EnumMember, "the agent itself");
         }
         return;
     }
@@ -138,9 +169,16 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
         _ if is_head && is_argument => {}
         Part::Head => items.beliefs_and_goals(configuration, CompletionItemKind::Property),
         Part::Formula => items.basics(configuration, |_| true),
-        Part::Value => items.basics(configuration, value),
-        Part::Context if is_argument => items.basics(configuration, value),
+        Part::Value => {
+            items.basics(configuration, value);
+            items.peers(configuration);
+        }
+        Part::Context if is_argument => {
+            items.basics(configuration, value);
+            items.peers(configuration);
+        }
         Part::Context => {
+            items.peers(configuration);
             items.beliefs_and_goals(configuration, CompletionItemKind::Property);
             items.basics(configuration, value);
             for word in ["not", "true", "false"] {
@@ -176,6 +214,12 @@ fn without_comments(text: &str) -> Option<String> {
         rest = &rest[end..];
     }
     Some(plain)
+}
+
+/// The part of a text behind the bracket of a belief's or goal's source, if it ends there.
+fn annotation(text: &str) -> Option<&str> {
+    let open = text.rfind('[').filter(|open| !text[*open..].contains(']'))?;
+    Some(text[open + 1..].trim())
 }
 
 /// Whether the end of a text is in the brackets of a label.
@@ -253,6 +297,19 @@ fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
                 items.add(word, CompletionItemKind::Keyword, "");
             }
         }
+        "messages" => {
+            let words = entry.split_whitespace().count();
+            if words <= 1 {
+                for word in ["tell", "achieve"] {
+                    items.add(word, CompletionItemKind::Keyword, "");
+                }
+                beliefs(items);
+            } else {
+                items.add("from", CompletionItemKind::Keyword, "");
+                items.add("any", CompletionItemKind::Keyword, "");
+                items.peers(configuration);
+            }
+        }
         "settables" | "perceived" | "triggerables" | "preemptive" => beliefs(items),
         "properties" if entry.contains('(') => {
             actions(items);
@@ -293,6 +350,39 @@ mod tests {
         let mut items = Items::default();
         in_agent(statement, Some(&configuration), &mut items);
         items.list.iter().map(|item| item.label.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn peers_are_offered_where_they_can_be_named() {
+        let (configuration, _) = translator::configuration::parse(
+            "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+            basics { void act(peer); }; peers { leader, scout }; messages { tell low from any; };
+            types { go(void); };",
+        );
+        for (statement, expected) in [
+            ("+low[", "source"),
+            ("+low[source(", "leader scout self"),
+            ("+!go : low[source(l", "leader scout self"),
+            ("+!go : low[source(P)] & P == ", "P leader scout go low not true false"),
+            ("+!go : .", "my_name"),
+            ("+!go : not .m", "my_name"),
+            ("+!go <- act(", "leader scout"),
+            ("+!go <- .", "wait send broadcast my_name"),
+            ("+!go <- !go[", ""),
+        ] {
+            let mut items = Items::default();
+            in_agent(statement, Some(&configuration), &mut items);
+            let labels = items.list.iter().map(|item| item.label.as_str());
+            assert_eq!(labels.collect::<Vec<_>>().join(" "), expected, "{statement}");
+        }
+        let offered = |before: &str| {
+            let mut items = Items::default();
+            in_section(before, &configuration, &mut items);
+            let labels = items.list.iter().map(|item| item.label.as_str());
+            labels.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(offered("messages { te"), "tell achieve go low");
+        assert_eq!(offered("messages { tell low from "), "from any leader scout");
     }
 
     #[test]

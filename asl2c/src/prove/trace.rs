@@ -103,7 +103,11 @@ impl Way {
             let name = name.to_owned();
             match kind {
                 CALLS => {
-                    let values = values(parameters(configuration, &name))?;
+                    let mut received = configuration.receiving().into_iter();
+                    let values = match received.find(|(function, ..)| *function == name) {
+                        Some((_, performative, message)) => values(&message.said(performative))?,
+                        None => values(parameters(configuration, &name))?,
+                    };
                     acts.push(Act { kind: Kind::Call, name, values });
                 }
                 STEPS => {

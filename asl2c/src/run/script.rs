@@ -4,7 +4,7 @@ use diagnostic::{Diagnostic, Span, closest};
 use translator::Act;
 use translator::configuration::{Configuration, ExternalTrigger};
 use translator::interpreter::Value;
-use translator::syntax::ast::{Operator, TriggerKind};
+use translator::syntax::ast::{Operator, Performative, TriggerKind};
 use translator::types::{CType, TypeKind};
 
 use super::values::{fields, parse};
@@ -16,6 +16,10 @@ pub(super) enum Statement {
     Raise(ExternalTrigger, Vec<Value>),
     /// `set_b(1);`
     Set(String, Vec<Value>),
+    /// `receive_tell_b(wingman, 1);`
+    Receive(Performative, String, Vec<Value>),
+    /// `init(wingman);`
+    Be(usize),
     /// `f_result = 1, 2;`
     Answer(String, Vec<Value>),
     /// `init();`
@@ -46,6 +50,10 @@ pub(crate) fn acts(line: &str, configuration: &Configuration) -> Result<Vec<Act>
         match statement {
             Statement::Raise(event, values) => acts.push(Act::Raise(event, values)),
             Statement::Set(belief, values) => acts.push(Act::Set(belief, values)),
+            Statement::Receive(performative, about, values) => {
+                acts.push(Act::Receive(performative, about, values));
+            }
+            Statement::Be(peer) => acts.push(Act::Be(peer)),
             Statement::Answer(function, values) => acts.push(Act::Answer(function, values)),
             Statement::Clear => acts.push(Act::Clear),
             Statement::Step(count) => acts.extend((0..count).map(|_| Act::Step)),
@@ -86,6 +94,7 @@ pub(super) fn words(configuration: &Configuration) -> Vec<String> {
     let mut words: Vec<String> =
         raised(configuration).map(|(name, _)| format!("{name}(")).collect();
     words.extend(configuration.settables.iter().map(|name| format!("set_{}(", name.text)));
+    words.extend(configuration.receiving().into_iter().map(|(name, ..)| format!("{name}(")));
     words.extend(functions(configuration).map(|(name, _)| format!("{name}_result = ")));
     words.extend(CALLS.map(|call| format!("{call}();")));
     words.extend(COMMANDS.map(str::to_owned));
@@ -203,6 +212,23 @@ impl<'a> Parser<'a> {
             let types = parameters(configuration, &belief.text);
             return Ok(Statement::Set(belief.text.clone(), self.arguments(types)?));
         }
+        let received = configuration.receiving();
+        if let Some((_, performative, message)) = received.iter().find(|(name, ..)| name == word) {
+            let values = self.arguments(&message.said(*performative))?;
+            return Ok(Statement::Receive(*performative, message.name.text.clone(), values));
+        }
+        if word == "init" && !configuration.peers.is_empty() {
+            let values = self.arguments(&[CType::peer()])?;
+            let peer = match values.as_slice() {
+                [Value::Integer(peer)] => usize::try_from(*peer).ok(),
+                _ => None,
+            };
+            let peer = peer.filter(|peer| *peer < configuration.peers.len());
+            return peer.map(Statement::Be).ok_or_else(|| {
+                Diagnostic::error("there is no such peer", span)
+                    .help("name it as in the section `peers`")
+            });
+        }
         let answer = word
             .strip_suffix("_result")
             .and_then(|name| functions(configuration).find(|(function, _)| *function == name));
@@ -315,6 +341,11 @@ impl<'a> Parser<'a> {
             return self.text();
         }
         let (word, span) = self.word();
+        if ctype.is_peer()
+            && let Some(number) = peer(word, self.configuration)
+        {
+            return Ok(Value::Integer(i128::try_from(number).unwrap_or(i128::MAX)));
+        }
         let wrong = |what: String| Diagnostic::error(format!("expected {what}"), span.clone());
         parse(word, ctype).map_err(|what| {
             let error = wrong(what);
@@ -343,6 +374,12 @@ impl<'a> Parser<'a> {
         }
         Err(Diagnostic::error("the text has no end", start - 1..self.line.len()))
     }
+}
+
+/// A peer by its name, or by that of its constant in C.
+fn peer(word: &str, configuration: &Configuration) -> Option<usize> {
+    let is_it = |peer: &str| word == peer || word == format!("PEER_{}", peer.to_uppercase());
+    configuration.peers.iter().position(|peer| is_it(&peer.text))
 }
 
 pub(crate) fn parameters<'a>(configuration: &'a Configuration, name: &str) -> &'a [CType] {

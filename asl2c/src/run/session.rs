@@ -134,6 +134,15 @@ impl Session {
                 let belief = with_values(belief, values);
                 return vec![at(0, format!("the environment sets {belief}"))];
             }
+            Some(Statement::Receive(performative, about, values)) => {
+                let (sender, said) = values
+                    .split_first()
+                    .map_or((None, &[][..]), |(peer, said)| (self.peer(peer), said));
+                let sender = sender.unwrap_or_else(|| "a stranger".to_owned());
+                let refused = shown.first().map_or("", |_| ", which is refused");
+                let (what, said) = (performative.name(), with_values(about, said));
+                return vec![at(0, format!("{sender} sends {what} {said}{refused}"))];
+            }
             Some(Statement::Clear) => {
                 return vec![at(0, "the environment drops all events: clear()".to_owned())];
             }
@@ -148,10 +157,34 @@ impl Session {
         std::iter::once(step).chain(story.iter().cloned()).collect()
     }
 
+    /// The name of a peer.
+    fn peer(&self, peer: &Value) -> Option<String> {
+        let Value::Integer(number) = peer else { return None };
+        let peer = self.configuration.peers.get(usize::try_from(*number).ok()?)?;
+        Some(peer.text.clone())
+    }
+
     fn statement(&mut self, statement: Statement, shown: &mut Vec<String>) -> Result<(), String> {
         match statement {
             Statement::Raise(event, values) => self.raise(&event, values, shown),
             Statement::Set(belief, values) => self.now.agent.set(belief, values),
+            Statement::Receive(performative, about, values) => {
+                let sender = match values.first() {
+                    Some(Value::Integer(sender)) => usize::try_from(*sender).unwrap_or(usize::MAX),
+                    _ => usize::MAX,
+                };
+                let said = values[1..].to_vec();
+                if !self.now.agent.receive(sender, performative, &about, said) {
+                    shown.push(
+                        "// refused: not from this peer, or too many of them wait".to_owned(),
+                    );
+                }
+            }
+            Statement::Be(peer) => {
+                self.now.agent.be(peer);
+                self.now.monitors = Monitors::new(&self.configuration);
+                self.now.steps = 0;
+            }
             Statement::Answer(function, values) => {
                 self.now.world.answers.insert(function, Answers::new(values));
             }
@@ -206,7 +239,10 @@ impl Session {
                 format!("{name}({})", values.join(", "))
             }
         });
-        section(&mut lines, "believes", "no beliefs", beliefs.collect());
+        let told = agent
+            .told_beliefs()
+            .map(|(name, peer, values)| format!("{}[source({peer})]", with_values(name, values)));
+        section(&mut lines, "believes", "no beliefs", beliefs.chain(told).collect());
         section(&mut lines, "pending, the next one first", "no events", agent.waiting());
         let counts = [
             (agent.unhandled_events(), "not handled completely"),
@@ -238,6 +274,7 @@ impl Session {
 const HELP: &str = "\
 achieve_g(1); add_b(1); del_b();  raise an event of the configuration's triggerables
 set_b(1.5);                       set a belief of its settables
+receive_tell_b(leader, 1);        a message of a peer; init(leader); begins again as one of them
 f_result = true;                  result of a function from now on
 f_result = 1, 2;                  its next results; the last one repeats
 next_step();  step [N]            one deliberation cycle, or N
