@@ -10,7 +10,7 @@ use crate::harness::{cbmc, skip};
 
 const FOLDER: &str = "../translator/agents";
 /// Each agent, and its properties that do not hold.
-const AGENTS: [(&str, &[&str]); 6] = [
+const AGENTS: [(&str, &[&str]); 7] = [
     (
         "paper",
         &[
@@ -27,6 +27,7 @@ const AGENTS: [(&str, &[&str]); 6] = [
     ("infusion", &["air_is_heard"]),
     ("rover", &[]),
     ("inspection", &[]),
+    ("relief", &[]),
 ];
 
 fn session(name: &str) -> Session {

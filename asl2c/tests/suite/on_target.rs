@@ -30,7 +30,7 @@ fn run(exercise: &Exercise, reference: &Exercise, steps: u32) -> Option<OnTarget
 
 #[test]
 fn each_agent_does_the_same_on_the_target_within_its_bounds() {
-    let gallery = ["paper", "lift", "traffic_light", "infusion", "rover", "inspection"];
+    let gallery = ["paper", "lift", "traffic_light", "infusion", "rover", "inspection", "relief"];
     let mut names: Vec<String> =
         gallery.iter().map(|name| format!("translator/agents/{name}.conf")).collect();
     names.push("autopilot/agent/autopilot.conf".to_owned());

@@ -27,7 +27,7 @@ pub(crate) enum MeasureError {
     Write(std::io::Error),
 }
 
-const AGENTS: [(&str, &str); 7] = [
+const AGENTS: [(&str, &str); 8] = [
     ("autopilot", "autopilot/agent/autopilot.conf"),
     ("paper", "translator/agents/paper.conf"),
     ("lift", "translator/agents/lift.conf"),
@@ -35,6 +35,7 @@ const AGENTS: [(&str, &str); 7] = [
     ("infusion", "translator/agents/infusion.conf"),
     ("rover", "translator/agents/rover.conf"),
     ("inspection", "translator/agents/inspection.conf"),
+    ("relief", "translator/agents/relief.conf"),
 ];
 const REPORT: &str = "docs/cortex-m4.md";
 /// Steps of each agent on both machines.
