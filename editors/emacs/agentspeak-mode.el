@@ -34,8 +34,8 @@
   '(("@\\s-*\\([a-z]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-constant-face)
     ("\\_<\\(?:not\\|mod\\)\\_>" . font-lock-keyword-face)
     ("\\_<\\(?:true\\|false\\)\\_>" . font-lock-constant-face)
-    ("\\_<\\(req\\|deadline\\)\\s-*(" 1 font-lock-preprocessor-face)
-    ("\\.\\s-*wait\\_>" . font-lock-keyword-face)
+    ("\\_<\\(req\\|deadline\\|source\\)\\s-*(" 1 font-lock-preprocessor-face)
+    ("\\.\\s-*\\(?:wait\\|send\\|broadcast\\|my_name\\)\\_>" . font-lock-keyword-face)
     ("<-" . font-lock-keyword-face)
     ("!\\s-*\\([a-z]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)
     ("[?+-]\\([a-z]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-variable-name-face)
@@ -44,8 +44,8 @@
   "Colours of agents.")
 
 (defconst agentspeak-conf-font-lock-keywords
-  `((,(concat "\\_<" (regexp-opt '("settings" "includes" "structs" "basics" "classes" "types" "settables"
-                                   "perceived" "triggerables" "preemptive" "properties") t)
+  `((,(concat "\\_<" (regexp-opt '("settings" "includes" "structs" "basics" "classes" "peers" "messages" "types"
+                                   "settables" "perceived" "triggerables" "preemptive" "properties") t)
               "\\s-*{")
      1 font-lock-keyword-face)
     ("\\_<\\([a-z_]+\\)\\s-*=" 1 font-lock-variable-name-face)
@@ -53,6 +53,7 @@
                     "unless" "until") 'symbols)
      . font-lock-builtin-face)
     ("\\_<\\(all\\)\\s-+[a-zA-Z_][a-zA-Z0-9_]*\\s-+\\(but\\)\\_>" (1 font-lock-builtin-face) (2 font-lock-builtin-face))
+    ("\\_<\\(tell\\|achieve\\|from\\)\\s-+[a-zA-Z_]" 1 font-lock-builtin-face)
     ("#include" . font-lock-preprocessor-face)
     ("[+-]!?\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)
     (,(regexp-opt '("void" "bool" "int" "short" "long" "float" "double" "signed" "unsigned" "char" "const") 'symbols)

@@ -13,8 +13,8 @@ syntax match agentspeakBelief /\([-+]\)\@1<=[a-z]\w*/
 syntax match agentspeakGoal /!\@1<=\s*[a-z]\w*/
 syntax match agentspeakBelief /?\@1<=\s*[a-z]\w*/
 syntax match agentspeakLabel /@\s*[a-z]\w*/
-syntax match agentspeakWait /\.\s*wait\>/
-syntax match agentspeakAnnotation /\<\(req\|deadline\)\ze\s*(/
+syntax match agentspeakInternal /\.\s*\(wait\|send\|broadcast\|my_name\)\>/
+syntax match agentspeakAnnotation /\<\(req\|deadline\|source\)\ze\s*(/
 syntax keyword agentspeakBoolean true false
 syntax keyword agentspeakWord not mod
 syntax match agentspeakEscape contained /\\["\\nt]/
@@ -31,7 +31,7 @@ highlight default link agentspeakArrow Statement
 highlight default link agentspeakBelief Type
 highlight default link agentspeakGoal Structure
 highlight default link agentspeakLabel Label
-highlight default link agentspeakWait Keyword
+highlight default link agentspeakInternal Keyword
 highlight default link agentspeakAnnotation PreProc
 highlight default link agentspeakBoolean Boolean
 highlight default link agentspeakWord Keyword

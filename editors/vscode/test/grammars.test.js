@@ -95,8 +95,8 @@ test("every configuration is coloured, and recognised", async () => {
 test("names and symbols have the scopes of their meaning", async () => {
   const text = `b(1, "x\\n"). // note
 !go.
-@l[req("R-1")] +!go(X, _) : b(X, Y) & not (X mod 2 \\== 1.5e3) | true
-  <- act(X); +b(-Y, f(3)); -b(_, _); !!go(1, 2); ?b(X, Z); Y = X - dim(1); .wait(500); !go(X, Z)[deadline(9)].`;
+@l[req("R-1")] +!go(X, _)[source(self)] : .my_name(M) & b(X, Y) & not (X mod 2 \\== 1.5e3) | true
+  <- act(X); +b(-Y, f(3)); -b(_, _); !!go(1, 2); ?b(X, Z); Y = X - dim(1); .wait(500); .broadcast(tell, c); !go(X, Z)[deadline(9)].`;
   const scopes = new Map();
   for (const token of await tokens(AGENT, text)) {
     scopes.set(token.text, [...(scopes.get(token.text) ?? []), token.scope.replace(".agentspeak", "")]);
@@ -107,7 +107,10 @@ test("names and symbols have the scopes of their meaning", async () => {
     l: ["entity.name.label"],
     req: ["keyword.other.annotation"],
     deadline: ["keyword.other.annotation"],
-    ".wait": ["keyword.control.wait"],
+    source: ["keyword.other.annotation"],
+    ".wait": ["keyword.control.internal"],
+    ".my_name": ["keyword.control.internal"],
+    ".broadcast": ["keyword.control.internal"],
     "<-": ["keyword.operator.arrow"],
     not: ["keyword.operator.word"],
     mod: ["keyword.operator.word"],
@@ -137,6 +140,19 @@ test("a configuration's names have their scopes", async () => {
   assert.equal(scope("halt"), "entity.name.function");
   assert.equal(scope("+!"), "keyword.operator.trigger");
   assert.equal(scope("exactly_one"), "keyword.control.formula");
+});
+
+test("peers and messages have their scopes", async () => {
+  const text = "peers { leader, scout }; messages { tell at(double) from any; achieve go(peer) from leader, 4; };";
+  const found = await tokens(CONFIGURATION, text);
+  const scope = (name) => found.find((token) => token.text === name)?.scope.replace(".agentspeak-configuration", "");
+  assert.equal(scope("peers"), "keyword.other.section");
+  assert.equal(scope("messages"), "keyword.other.section");
+  for (const word of ["tell", "achieve", "from"]) {
+    assert.equal(scope(word), "keyword.control.formula", word);
+  }
+  assert.equal(scope("at"), "entity.name.function");
+  assert.equal(scope("4"), "constant.numeric");
 });
 
 test("what is no AgentSpeak is marked", async () => {
