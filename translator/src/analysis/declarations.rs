@@ -321,6 +321,13 @@ impl Declarations {
     }
 }
 
+/// What is named in the place of a peer is none.
+pub(super) fn not_a_peer(what: &str, span: Span) -> Diagnostic {
+    Code::NotDeclared
+        .at(format!("{what} is not a peer"), span)
+        .help("write a variable, `self`, or a name of the section `peers`")
+}
+
 /// A basic action is a C function, so its name must be unique.
 fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
     let name = &basic.name.text;

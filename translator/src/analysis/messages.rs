@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use diagnostic::Span;
 
 use super::Analysis;
+use super::declarations::not_a_peer;
 use super::scope::Scope;
 use super::values::Resolved;
 use crate::code::Code;
@@ -454,12 +455,6 @@ pub(super) fn check_peers_differ(left: &Value, right: &Value, span: &Span) -> Re
         }
         _ => Ok(()),
     }
-}
-
-pub(super) fn not_a_peer(what: &str, span: Span) -> diagnostic::Diagnostic {
-    Code::NotDeclared
-        .at(format!("{what} is not a peer"), span)
-        .help("write a variable, `self`, or a name of the section `peers`")
 }
 
 pub(super) fn no_source(name: &str, span: Span) -> diagnostic::Diagnostic {

@@ -4,8 +4,7 @@ use diagnostic::{Diagnostic, Span};
 
 use super::Analysis;
 use super::constants::constant;
-use super::declarations::check_value_result;
-use super::messages::not_a_peer;
+use super::declarations::{check_value_result, not_a_peer};
 use super::scope::{Scope, said_already};
 use crate::code::Code;
 use crate::program::{Call, Operation, Pattern, Value};
