@@ -85,6 +85,8 @@ const dangers = (() => {
     // Said again only if it changes: it is read aloud.
     if (danger && alarm.textContent !== danger.text) alarm.textContent = danger.text;
     $("bar").className = danger ? danger.level : "";
+    // Together with what is said of it.
+    document.body.classList.toggle("stale", Boolean(over) || !socket || socket.readyState !== WebSocket.OPEN);
     $("doing").style.visibility = danger ? "hidden" : "";
     // Counting seconds are no new danger.
     const kind = danger ? danger.level + danger.text.replace(/[\d.]+/g, "") : "";

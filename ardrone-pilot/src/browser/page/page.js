@@ -252,7 +252,6 @@ function draw() {
   drawnAt = now;
   drawAdvice();
   drawButtons();
-  document.body.classList.toggle("stale", Boolean(over) || !socket || socket.readyState !== WebSocket.OPEN);
   if (!flight) return;
   if (!["flights", "settings"].includes(view)) {
     map.draw();
