@@ -26,15 +26,14 @@ fn a_whole_agent_as_c_and_rust() {
     LAMP.compile();
 }
 
-/// A panic cannot unwind through C, so it is delayed until C has finished its step.
-#[test]
-fn a_panic_of_the_environment_is_carried_over_the_c() {
+/// What a program in Rust prints that uses the bindings of an agent.
+fn bound(case: &Case, main: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let translation = PANICKING.translate("instance = context; rust = bindings.rs;").unwrap();
+    let translation = case.translate("instance = context; rust = bindings.rs;").unwrap();
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
-    std::fs::write(folder.path().join("main.rs"), PANICKING_MAIN).unwrap();
+    std::fs::write(folder.path().join("main.rs"), main).unwrap();
     let run = |program: &mut Command| {
         let output = program.current_dir(folder.path()).output().unwrap();
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -43,7 +42,13 @@ fn a_panic_of_the_environment_is_carried_over_the_c() {
     };
     run(Command::new("cc").args(["-c", "agent.c"]));
     run(Command::new("rustc").args(["--edition", "2024", "-C", "link-arg=agent.o", "main.rs"]));
-    let printed = run(&mut Command::new(folder.path().join("main")));
+    run(&mut Command::new(folder.path().join("main")))
+}
+
+/// A panic cannot unwind through C, so it is delayed until C has finished its step.
+#[test]
+fn a_panic_of_the_environment_is_carried_over_the_c() {
+    let printed = bound(&PANICKING, PANICKING_MAIN);
     assert_eq!(printed, "asked\ncaught: it fell over\nasked 1 times\nnever again\n");
 }
 
@@ -117,21 +122,7 @@ fn main() {
 #[test]
 fn agents_that_talk_are_compiled_and_bound() {
     PEERS.compile();
-    let folder = tempfile::tempdir().unwrap();
-    let translation = PEERS.translate("instance = context; rust = bindings.rs;").unwrap();
-    for file in &translation.files {
-        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
-    }
-    std::fs::write(folder.path().join("main.rs"), PEERS_MAIN).unwrap();
-    let run = |program: &mut Command| {
-        let output = program.current_dir(folder.path()).output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{:?}: {errors}", output.status);
-        String::from_utf8(output.stdout).unwrap()
-    };
-    run(Command::new("cc").args(["-c", "agent.c"]));
-    run(Command::new("rustc").args(["--edition", "2024", "-C", "link-arg=agent.o", "main.rs"]));
-    let printed = run(&mut Command::new(folder.path().join("main")));
+    let printed = bound(&PEERS, PEERS_MAIN);
     let expected = "false true true false true show 5 who 0 who 1 show 4 who 0 send 0 5 true true";
     assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" "), expected);
 }

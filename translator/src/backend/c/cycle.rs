@@ -1,6 +1,6 @@
 //! The deliberation cycle: posting events, taking the next one, handling it.
 
-use super::events::{UNROLLED, event_name, no_event, run, wrapped};
+use super::events::{UNROLLED, else_count, event_name, no_event, run, wrapped};
 use super::messages;
 use super::names::{Names, argument};
 use super::state::{
@@ -99,7 +99,6 @@ fn queueing(
     let field = |part: &str| names.field(&ring.field(part));
     let (first, count) = (field("first"), field("count"));
     let external = names.field(external_count(program));
-    let unhandled = names.field("unhandled");
     writer.line("/* Appends the goal. One that does not fit is dropped and counted. */");
     writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
     writer.open(format!("if (({count} - {external}) < {}U)", program.deferred_room));
@@ -111,12 +110,7 @@ fn queueing(
     writer.line(format!("{}[slot] = {event};", field("queue")));
     writer.line(format!("{count} = {count} + 1U;"));
     writer.close("}");
-    writer.open(format!("else if ({unhandled} < UINT32_MAX)"));
-    writer.line(format!("{unhandled} = {unhandled} + 1U;"));
-    writer.close("}");
-    writer.open("else");
-    writer.line("/* The counter saturates. */");
-    writer.close("}");
+    else_count(writer, &names.field("unhandled"));
     writer.close("}");
     writer.line("");
 }

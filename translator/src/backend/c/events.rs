@@ -42,3 +42,13 @@ pub(super) fn run(
         writer.close("}");
     }
 }
+
+/// The other branches of an `if` that takes something in: what finds no room is counted in a field of the state.
+pub(super) fn else_count(writer: &mut Writer, counter: &str) {
+    writer.open(format!("else if ({counter} < UINT32_MAX)"));
+    writer.line(format!("{counter} = {counter} + 1U;"));
+    writer.close("}");
+    writer.open("else");
+    writer.line("/* The counter saturates. */");
+    writer.close("}");
+}

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use super::cycle::store;
-use super::events::{event_name, no_event, wrapped};
+use super::events::{else_count, event_name, no_event, wrapped};
 use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::messages;
@@ -244,13 +244,7 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
             writer.line(format!("{waiting} = {waiting} + 1U;"));
         }
         writer.close("}");
-        let refused = names.field("refused");
-        writer.open(format!("else if ({refused} < UINT32_MAX)"));
-        writer.line(format!("{refused} = {refused} + 1U;"));
-        writer.close("}");
-        writer.open("else");
-        writer.line("/* The counter saturates. */");
-        writer.close("}");
+        else_count(writer, &names.field("refused"));
         writer.line("return accepted;");
     }
     writer.close("}");

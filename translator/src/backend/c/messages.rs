@@ -3,7 +3,7 @@
 //! A belief that peers tell has a slot for each of them; a goal that they ask for, a ring for each of them. Senders are
 //! served in turn, so that none keeps another one waiting.
 
-use super::events::{UNROLLED, event_name, no_event, run, wrapped};
+use super::events::{UNROLLED, else_count, event_name, no_event, run, wrapped};
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
 use super::said::{
@@ -191,7 +191,7 @@ fn untell(writer: &mut Writer, program: &Program, names: &Names, told: &Told) {
 
 fn achieve(writer: &mut Writer, program: &Program, names: &Names, asked: &Asked) {
     let field = |part: &str| names.field(&ring_field(program, asked, part));
-    let (first, count, refused) = (field("first"), field("count"), names.field("refused"));
+    let (first, count) = (field("first"), field("count"));
     writer.open(format!("if ({count} < {}U)", asked.room));
     if !asked_types(program, asked).is_empty() {
         let slot = wrapped(&format!("{first} + {count}"), asked.room);
@@ -205,12 +205,7 @@ fn achieve(writer: &mut Writer, program: &Program, names: &Names, asked: &Asked)
     writer.line(format!("{count} = {count} + 1U;"));
     writer.line("accepted = true;");
     writer.close("}");
-    writer.open(format!("else if ({refused} < UINT32_MAX)"));
-    writer.line(format!("{refused} = {refused} + 1U;"));
-    writer.close("}");
-    writer.open("else");
-    writer.line("/* The counter saturates. */");
-    writer.close("}");
+    else_count(writer, &names.field("refused"));
 }
 
 /// Whether a peer waits to be heard, as expressions: with a goal, and with a belief.

@@ -79,25 +79,27 @@ impl Comparison<'_> {
     fn raise(&self, text: &mut String, event: &ExternalTrigger, values: &[Value]) {
         let Some((number, external)) = self.program.raised(event) else { return };
         let name = external_name(external);
-        let given = self.given(text, &name, values, &external.types);
-        let raised = self.names.call(&name, given.clone());
-        let given = given.join(", ");
-        _ = writeln!(text, "        bool accepted = {raised};");
-        _ = writeln!(text, "        bool expected = plain_raise_{number}({given});");
-        _ = writeln!(
-            text,
-            "        plain_assert(accepted == expected, \"another result of {name}\");"
-        );
-        text.push_str("        plain_compare();\n    }\n");
+        self.accept(text, (&name, &format!("plain_raise_{number}")), values, &external.types);
     }
 
     fn receive(&self, text: &mut String, function: &Received, values: &[Value]) {
         let name = &function.name;
-        let given = self.given(text, name, values, &function.types);
-        let received = self.names.call(name, given.clone());
+        self.accept(text, (name, &format!("plain_{name}")), values, &function.types);
+    }
+
+    /// A call that is accepted or refused, by the C and by the plain translation alike.
+    fn accept(
+        &self,
+        text: &mut String,
+        (name, plain): (&str, &str),
+        values: &[Value],
+        types: &[CType],
+    ) {
+        let given = self.given(text, name, values, types);
+        let accepted = self.names.call(name, given.clone());
         let given = given.join(", ");
-        _ = writeln!(text, "        bool accepted = {received};");
-        _ = writeln!(text, "        bool expected = plain_{name}({given});");
+        _ = writeln!(text, "        bool accepted = {accepted};");
+        _ = writeln!(text, "        bool expected = {plain}({given});");
         _ = writeln!(
             text,
             "        plain_assert(accepted == expected, \"another result of {name}\");"
