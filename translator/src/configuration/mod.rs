@@ -26,7 +26,7 @@ mod messages;
 mod outputs;
 mod parser;
 mod properties;
-mod scanner;
+pub(crate) mod scanner;
 mod settings;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -6,7 +6,7 @@ use super::outputs::check_outputs;
 use super::scanner::{Parsed, Scanner, advice};
 use super::{Configuration, ExternalTrigger, Message};
 use crate::code::Code;
-use crate::syntax::ast::{Name, Operator, TriggerKind};
+use crate::syntax::ast::Name;
 
 /// The sections of a configuration.
 pub const SECTIONS: [&str; 13] = [
@@ -168,35 +168,9 @@ impl<'a> Parser<'a> {
     }
 
     fn declared_trigger(&mut self) -> Parsed<ExternalTrigger> {
-        let trigger = self.trigger()?;
+        let trigger = self.scanner.trigger()?;
         self.scanner.expect(";")?;
         Ok(trigger)
-    }
-
-    pub(super) fn trigger(&mut self) -> Parsed<ExternalTrigger> {
-        let start = self.scanner.position;
-        let operator = if self.scanner.take("+") {
-            Operator::Add
-        } else if self.scanner.take("-") {
-            Operator::Delete
-        } else {
-            return Err(self.scanner.unexpected("`+!goal`, `+belief` or `-belief`"));
-        };
-        let kind = if self.scanner.take("!") {
-            TriggerKind::Achieve
-        } else if self.scanner.rest().starts_with('?') {
-            return Err(self.scanner.unexpected("`+!goal`, `+belief` or `-belief`"));
-        } else {
-            TriggerKind::Belief
-        };
-        let name = self.scanner.word("a name")?;
-        let span = start..self.scanner.position;
-        if operator == Operator::Delete && kind == TriggerKind::Achieve {
-            return Err(Code::NotTriggerable
-                .at("`-!goal` cannot be raised from outside", span)
-                .help("failure plans run when their goal fails"));
-        }
-        Ok(ExternalTrigger { operator, kind, name, span })
     }
 
     /// `#include <file>` or `#include "file"`, one after the other.

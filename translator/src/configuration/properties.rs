@@ -4,7 +4,7 @@ use diagnostic::Span;
 
 use super::ExternalTrigger;
 use super::parser::Parser;
-use super::scanner::Parsed;
+use super::scanner::{Parsed, Scanner};
 use crate::code::Code;
 use crate::syntax::ast::{FOREIGN_RELATIONS, Name, Number, Relation};
 use crate::syntax::lexer::foreign_relation;
@@ -125,7 +125,7 @@ impl Parser<'_> {
         self.scanner.skip_blanks()?;
         let start = self.scanner.position;
         let name = self.scanner.word("a property's name")?;
-        let requirements = self.requirements()?;
+        let requirements = self.scanner.requirements()?;
         self.scanner.expect(":")?;
         let formula = self.formula()?;
         let span = start..self.scanner.position;
@@ -137,26 +137,6 @@ impl Parser<'_> {
         }
         known.push(Property { name, requirements, formula, span });
         Ok(())
-    }
-
-    /// `[REQ-1, REQ-2]`, or empty.
-    fn requirements(&mut self) -> Parsed<Vec<String>> {
-        self.scanner.skip_blanks()?;
-        if !self.scanner.take("[") {
-            return Ok(Vec::new());
-        }
-        let length = self.scanner.rest().find([']', ';', '\n']).unwrap_or_default();
-        let tags = &self.scanner.rest()[..length];
-        let tags: Vec<String> = tags.split(',').map(|tag| tag.trim().to_owned()).collect();
-        let is_tag = |tag: &String| {
-            !tag.is_empty() && tag.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
-        };
-        if !tags.iter().all(is_tag) {
-            return Err(self.scanner.unexpected("requirement tags, such as `[SAF-1, SAF-2]`"));
-        }
-        self.scanner.position += length;
-        self.scanner.expect("]")?;
-        Ok(tags)
     }
 
     fn formula(&mut self) -> Parsed<Formula> {
@@ -184,11 +164,11 @@ impl Parser<'_> {
 
     fn within(&mut self) -> Parsed<Formula> {
         self.scanner.expect("(")?;
-        let steps = self.steps()?;
+        let steps = self.scanner.steps()?;
         self.scanner.expect(",")?;
         self.scanner.skip_blanks()?;
         let cause = if self.scanner.rest().starts_with(['+', '-']) {
-            Cause::Event(self.trigger()?)
+            Cause::Event(self.scanner.trigger()?)
         } else {
             let name = self.scanner.word("an event, an action or a belief")?;
             match self.relation()? {
@@ -205,7 +185,7 @@ impl Parser<'_> {
             let word = self.scanner.word("an action, a class of actions, or `unless`")?;
             self.scanner.skip_blanks()?;
             if word.text == "unless" {
-                unless.push(self.trigger()?);
+                unless.push(self.scanner.trigger()?);
             } else {
                 actions.push(word);
             }
@@ -268,7 +248,7 @@ impl Parser<'_> {
         let action = self.scanner.word("an action or a class of actions")?;
         self.scanner.expect(",")?;
         self.scanner.skip_blanks()?;
-        let event = self.trigger()?;
+        let event = self.scanner.trigger()?;
         self.scanner.skip_blanks()?;
         let mut until = Vec::new();
         while self.scanner.take(",") {
@@ -282,15 +262,38 @@ impl Parser<'_> {
         self.scanner.expect(")")?;
         Ok(Formula::OnlyAfter { action, event, until })
     }
+}
 
-    fn steps(&mut self) -> Parsed<u32> {
-        self.scanner.skip_blanks()?;
-        let rest = self.scanner.rest();
+impl Scanner<'_> {
+    /// `[REQ-1, REQ-2]`, or empty.
+    pub(crate) fn requirements(&mut self) -> Parsed<Vec<String>> {
+        self.skip_blanks()?;
+        if !self.take("[") {
+            return Ok(Vec::new());
+        }
+        let length = self.rest().find([']', ';', '\n']).unwrap_or_default();
+        let tags = &self.rest()[..length];
+        let tags: Vec<String> = tags.split(',').map(|tag| tag.trim().to_owned()).collect();
+        let is_tag = |tag: &String| {
+            !tag.is_empty() && tag.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
+        };
+        if !tags.iter().all(is_tag) {
+            return Err(self.unexpected("requirement tags, such as `[SAF-1, SAF-2]`"));
+        }
+        self.position += length;
+        self.expect("]")?;
+        Ok(tags)
+    }
+
+    /// A number of steps.
+    pub(crate) fn steps(&mut self) -> Parsed<u32> {
+        self.skip_blanks()?;
+        let rest = self.rest();
         let length = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        let start = self.scanner.position;
+        let start = self.position;
         match rest[..length].parse() {
             Ok(steps @ 1..=MOST_STEPS) => {
-                self.scanner.position += length;
+                self.position += length;
                 Ok(steps)
             }
             _ => Err(Code::MalformedNumber

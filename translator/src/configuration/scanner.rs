@@ -2,23 +2,24 @@
 
 use diagnostic::{Diagnostic, Span};
 
+use super::ExternalTrigger;
 use crate::code::Code;
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Name, Operator, TriggerKind};
 
-pub(super) type Parsed<T> = Result<T, Diagnostic>;
+pub(crate) type Parsed<T> = Result<T, Diagnostic>;
 
 /// A position in a text.
-pub(super) struct Scanner<'a> {
-    pub(super) text: &'a str,
-    pub(super) position: usize,
+pub(crate) struct Scanner<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) position: usize,
 }
 
 impl<'a> Scanner<'a> {
-    pub(super) fn rest(&self) -> &'a str {
+    pub(crate) fn rest(&self) -> &'a str {
         &self.text[self.position..]
     }
 
-    pub(super) fn take(&mut self, symbol: &str) -> bool {
+    pub(crate) fn take(&mut self, symbol: &str) -> bool {
         let found = self.rest().starts_with(symbol);
         if found {
             self.position += symbol.len();
@@ -26,12 +27,12 @@ impl<'a> Scanner<'a> {
         found
     }
 
-    pub(super) fn expect(&mut self, symbol: &str) -> Parsed<()> {
+    pub(crate) fn expect(&mut self, symbol: &str) -> Parsed<()> {
         self.skip_blanks()?;
         if self.take(symbol) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
     }
 
-    pub(super) fn word(&mut self, expected: &str) -> Parsed<Name> {
+    pub(crate) fn word(&mut self, expected: &str) -> Parsed<Name> {
         self.skip_blanks()?;
         if !self.rest().starts_with(is_word_start) {
             return Err(self.unexpected(expected));
@@ -42,7 +43,7 @@ impl<'a> Scanner<'a> {
         Ok(Name { text: self.text[span.clone()].to_owned(), span })
     }
 
-    pub(super) fn skip_blanks(&mut self) -> Parsed<()> {
+    pub(crate) fn skip_blanks(&mut self) -> Parsed<()> {
         loop {
             let trimmed = self.rest().trim_start();
             self.position = self.text.len() - trimmed.len();
@@ -64,7 +65,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Continues behind the next `;`, or before the `}` that ends the section.
-    pub(super) fn skip_entry(&mut self) {
+    pub(crate) fn skip_entry(&mut self) {
         match self.rest().find([';', '}']) {
             Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
             Some(offset) => self.position += offset,
@@ -72,7 +73,33 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    pub(super) fn unexpected(&self, expected: &str) -> Diagnostic {
+    pub(crate) fn trigger(&mut self) -> Parsed<ExternalTrigger> {
+        let start = self.position;
+        let operator = if self.take("+") {
+            Operator::Add
+        } else if self.take("-") {
+            Operator::Delete
+        } else {
+            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+        };
+        let kind = if self.take("!") {
+            TriggerKind::Achieve
+        } else if self.rest().starts_with('?') {
+            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+        } else {
+            TriggerKind::Belief
+        };
+        let name = self.word("a name")?;
+        let span = start..self.position;
+        if operator == Operator::Delete && kind == TriggerKind::Achieve {
+            return Err(Code::NotTriggerable
+                .at("`-!goal` cannot be raised from outside", span)
+                .help("failure plans run when their goal fails"));
+        }
+        Ok(ExternalTrigger { operator, kind, name, span })
+    }
+
+    pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {
         let word = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
         match self.rest().chars().next() {
             Some(_) if word > 0 => Code::Syntax.at(
@@ -95,16 +122,16 @@ fn span_of(position: usize, character: char) -> Span {
     position..position + character.len_utf8()
 }
 
-pub(super) fn is_word_start(character: char) -> bool {
+pub(crate) fn is_word_start(character: char) -> bool {
     character.is_ascii_alphabetic() || character == '_'
 }
 
-pub(super) fn is_word(character: char) -> bool {
+pub(crate) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
 /// Help for an unknown word.
-pub(super) fn advice(word: &str, known: &[&str]) -> String {
+pub(crate) fn advice(word: &str, known: &[&str]) -> String {
     match diagnostic::closest(word, known.iter().copied()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
         None => format!("known are: {}", known.join(", ")),
