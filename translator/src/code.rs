@@ -84,6 +84,7 @@ codes! {
     Error NotSettable "not-settable" "a perceived belief that the environment does not set";
     Error NotPreemptive "not-preemptive" "a pre-empting event that is not a goal";
     Error NeverSent "never-sent" "a source that never tells the belief or asks for the goal";
+    Error OtherPeers "other-peers" "agents of a system that do not have the same peers and messages, or a peer without an agent";
     Error ComparedUnbelieved "compared-unbelieved" "a property that compares a belief that is never held";
     Warning UnseenFailure "unseen-failure" "failure plans that do not handle later failures of their goal";
     Warning NoPlan "no-plan" "goals that may find no plan and have no failure plan";

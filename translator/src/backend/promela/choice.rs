@@ -3,8 +3,10 @@
 use super::logic::{Choice, or};
 use super::scale::{Number, Scale, is_checked};
 use crate::analysis::constants::c_number;
-use crate::configuration::{Cause, Comparison, Formula, Operand};
-use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
+use crate::configuration::{Cause, Comparison, Formula, Operand, Property};
+use crate::program::{
+    Alternatives, BeliefId, Condition, Pattern, Plan, Program, Value, VariableId,
+};
 use crate::syntax::ast::Relation;
 
 /// The comparisons of properties, whose results the model remembers.
@@ -82,9 +84,9 @@ struct Side<'a> {
 }
 
 impl Comparisons {
-    pub(super) fn new(program: &Program) -> Self {
+    pub(super) fn new(program: &Program, properties: &[Property]) -> Self {
         let (mut pairs, mut scales) = (Vec::new(), Vec::<Scale>::new());
-        for (number, property) in (1..).zip(&program.configuration.properties) {
+        for (number, property) in (1..).zip(properties) {
             let Formula::Within { cause: Cause::Comparison(comparison), .. } = &property.formula
             else {
                 continue;
@@ -210,8 +212,24 @@ pub(super) struct Reader<'a> {
     program: &'a Program,
     comparisons: &'a Comparisons,
     held: &'a dyn Fn(BeliefId) -> String,
-    /// The belief whose only value each variable has.
-    origins: Vec<Option<BeliefId>>,
+    peers: &'a Peers,
+    /// Where each variable has its value from.
+    known: Vec<Option<Known>>,
+}
+
+/// What is known of a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Known {
+    /// It is the only one of a belief.
+    Belief(BeliefId),
+    /// It is a peer, whose number is this expression.
+    Peer(String),
+}
+
+/// A way in which a plan applies: when, and the numbers of the peers that variables have then.
+pub(super) struct Way {
+    pub(super) choice: Choice,
+    pub(super) peers: Vec<(VariableId, String)>,
 }
 
 impl<'a> Reader<'a> {
@@ -219,34 +237,104 @@ impl<'a> Reader<'a> {
         program: &'a Program,
         comparisons: &'a Comparisons,
         held: &'a dyn Fn(BeliefId) -> String,
+        peers: &'a Peers,
     ) -> Self {
-        Self { program, comparisons, held, origins: Vec::new() }
+        Self { program, comparisons, held, peers, known: Vec::new() }
     }
 
-    /// Whether a plan applies.
-    pub(super) fn applies(&mut self, plan: &Plan) -> Choice {
-        self.origins = vec![None; plan.variables.len()];
-        let mut parts = vec![matches(&plan.patterns)];
-        parts.extend(plan.context.iter().map(|condition| self.condition(condition)));
-        Choice::all(parts)
+    /// Whether a plan applies. `source` is the variable with the peer that its event comes from.
+    pub(super) fn applies(&mut self, plan: &Plan, source: Option<&str>) -> Choice {
+        let trigger = self.trigger(plan, source);
+        Choice::all(vec![trigger, self.conjunction(&plan.context)])
+    }
+
+    /// The ways in which a plan applies, those that are tried first before the others.
+    pub(super) fn ways(&mut self, plan: &Plan, source: Option<&str>) -> Vec<Way> {
+        let trigger = self.trigger(plan, source);
+        let mut ways = Vec::new();
+        let context = plan.context.iter().map(Next::Condition).collect();
+        self.find_ways(context, &[trigger], &mut ways);
+        ways
+    }
+
+    fn find_ways(&mut self, mut rest: Vec<Next<'_>>, before: &[Choice], ways: &mut Vec<Way>) {
+        let mut parts = before.to_vec();
+        while !rest.is_empty() {
+            let condition = match rest.remove(0) {
+                Next::Condition(Condition::Any(alternatives)) => {
+                    let Alternatives { branches, exports } = alternatives;
+                    for (index, branch) in branches.iter().enumerate() {
+                        let known = self.known.clone();
+                        let branch = branch.iter().map(Next::Condition);
+                        let exports =
+                            exports.iter().map(|(outer, inner)| Next::Named(*outer, inner[index]));
+                        let all = branch.chain(exports).chain(rest.iter().copied()).collect();
+                        self.find_ways(all, &parts, ways);
+                        self.known = known;
+                    }
+                    return;
+                }
+                Next::Named(outer, inner) => {
+                    let known = self.known[inner.0].clone();
+                    self.known[outer.0] = known;
+                    continue;
+                }
+                Next::Condition(condition) => condition,
+            };
+            parts.push(self.condition(condition));
+        }
+        let peers = self.known.iter().enumerate().filter_map(|(index, known)| match known {
+            Some(Known::Peer(peer)) => Some((VariableId(index), peer.clone())),
+            _ => None,
+        });
+        let peers = peers.collect();
+        ways.push(Way { choice: Choice::all(parts), peers });
+    }
+
+    /// Whether the event matches.
+    fn trigger(&mut self, plan: &Plan, source: Option<&str>) -> Choice {
+        self.known = vec![None; plan.variables.len()];
+        let (Some(source), Some((last, others))) = (source, plan.patterns.split_last()) else {
+            return matches(&plan.patterns);
+        };
+        let from = match last {
+            Pattern::Any => Choice::certain(),
+            Pattern::Bind(variable) => {
+                self.known[variable.0] = Some(Known::Peer(source.to_owned()));
+                Choice::certain()
+            }
+            Pattern::Equal(value) => match self.peer(value) {
+                Some(peer) => self.peers.same(source, &peer),
+                None => Choice::free(),
+            },
+        };
+        Choice::all(vec![matches(others), from])
     }
 
     fn condition(&mut self, condition: &Condition) -> Choice {
         match condition {
             Condition::Holds { belief, patterns } => {
                 if let [Pattern::Bind(variable)] = patterns.as_slice() {
-                    self.originate(*variable, Some(*belief));
+                    self.known[variable.0] = Some(Known::Belief(*belief));
                 }
                 Choice::all(vec![Choice::when((self.held)(*belief)), matches(patterns)])
             }
             Condition::Truth(_) => Choice::free(),
             Condition::Compare { relation, left, right, ctype } => {
+                if let (Some(left), Some(right)) = (self.peer(left), self.peer(right)) {
+                    let same = self.peers.same(&left, &right);
+                    return match relation {
+                        Relation::Equal => same,
+                        Relation::NotEqual => same.not(),
+                        _ => Choice::free(),
+                    };
+                }
                 let total = !ctype.is_float();
                 self.comparisons.choice(self.side(left), *relation, self.side(right), total)
             }
             Condition::Bind { variable, value } => {
-                let origin = self.origin(value);
-                self.originate(*variable, origin);
+                let belief = self.origin(value).map(Known::Belief);
+                self.known[variable.0] = belief.or_else(|| self.peer(value).map(Known::Peer));
                 if value.can_fail() { Choice::free() } else { Choice::certain() }
             }
             Condition::Not(inner) => self.conjunction(inner).not(),
@@ -261,10 +349,6 @@ impl<'a> Reader<'a> {
         Choice::all(conditions.iter().map(|condition| self.condition(condition)).collect())
     }
 
-    fn originate(&mut self, variable: VariableId, origin: Option<BeliefId>) {
-        self.origins[variable.0] = origin;
-    }
-
     fn side(&self, value: &Value) -> Side<'_> {
         let origin = self.origin(value);
         let fixed = origin.and_then(|id| self.program.fixed(id));
@@ -276,9 +360,84 @@ impl<'a> Reader<'a> {
 
     fn origin(&self, value: &Value) -> Option<BeliefId> {
         match value {
-            Value::Variable(id) => self.origins[id.0],
+            Value::Variable(id) => match self.known[id.0] {
+                Some(Known::Belief(belief)) => Some(belief),
+                _ => None,
+            },
             _ => None,
         }
+    }
+
+    /// The number of a peer, as an expression.
+    fn peer(&self, value: &Value) -> Option<String> {
+        match value {
+            Value::Me => Some(self.peers.me()),
+            Value::Constant(name, ctype) if ctype.is_peer() => {
+                let peers = 0..self.program.configuration.peers.len();
+                let peer = peers.into_iter().find(|peer| self.program.peer(*peer) == *name)?;
+                Some(peer.to_string())
+            }
+            Value::Variable(id) => match &self.known[id.0] {
+                Some(Known::Peer(peer)) => Some(peer.clone()),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+/// What a context has still to decide.
+#[derive(Clone, Copy)]
+enum Next<'c> {
+    Condition(&'c Condition),
+    /// A variable behind alternatives is that of the branch that was taken.
+    Named(VariableId, VariableId),
+}
+
+/// The numbers of peers in the model.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Peers {
+    /// How many there are.
+    pub(super) count: usize,
+    /// The peer that the agent is, if the model is of that one.
+    pub(super) me: Option<usize>,
+}
+
+/// A peer about whom nothing is known.
+pub(super) const UNKNOWN_PEER: &str = "255";
+
+impl Peers {
+    /// The agent's own number: one that is no other's, if it may be any of them.
+    pub(super) fn me(self) -> String {
+        self.me.unwrap_or(self.count).to_string()
+    }
+
+    /// Whether two are the same.
+    fn same(self, left: &str, right: &str) -> Choice {
+        if left == right && left != UNKNOWN_PEER {
+            return Choice::certain();
+        }
+        let number = |peer: &str| peer.parse::<usize>().ok();
+        let (one, other) = match (number(left), number(right)) {
+            // The agent may be the one that is named.
+            (Some(left), Some(right)) if left < self.count && right < self.count => {
+                return Choice::certain().not();
+            }
+            (None, Some(_)) => (left, right),
+            (Some(_), None) => (right, left),
+            _ => return Choice::free(),
+        };
+        if other == UNKNOWN_PEER {
+            return Choice::free();
+        }
+        let mut may_be = vec![format!("{one} == {UNKNOWN_PEER}")];
+        let fails = format!("({} || {one} != {other})", may_be[0]);
+        if self.me.is_none() {
+            // What comes from the agent itself may come from the one that is named.
+            may_be.push(format!("{one} == {}", self.count));
+        }
+        may_be.push(format!("{one} == {other}"));
+        Choice { holds: format!("({})", may_be.join(" || ")), fails }
     }
 }
 

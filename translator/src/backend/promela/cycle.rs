@@ -1,6 +1,7 @@
 //! The environment and the deliberation cycle.
 
-use super::logic::{not, or};
+use super::choice::UNKNOWN_PEER;
+use super::logic::{and, not, or};
 use super::scale::Scale;
 use super::{Emission, Waiting};
 use crate::program::{BeliefId, HandlerId};
@@ -10,17 +11,19 @@ impl Emission<'_> {
     /// Possible transitions: an event is raised, a belief is set, or the agent takes a step.
     pub(super) fn environment(&mut self) {
         self.writer.line("if");
+        let in_time = self.part.map_or_else(|| "true".to_owned(), |part| part.round_goes_on());
         for (index, external) in self.program.external.iter().enumerate() {
             let number = self.number(Waiting::External(index));
             let settings = &self.program.configuration.settings;
-            if external.preemptive {
-                self.writer.line(format!(":: preempts_{index} = true;"));
+            let (room, raise) = if external.preemptive {
+                ("true".to_owned(), format!("preempts_{index} = true;"))
             } else if settings.queue {
-                self.writer
-                    .line(format!(":: raised < {} -> raised++; inbox!{number};", settings.inbox));
+                (format!("raised < {}", settings.inbox), format!("raised++; inbox!{number};"))
             } else {
-                self.writer.line(format!(":: len(inbox) < {} -> inbox!{number};", settings.inbox));
-            }
+                (format!("len(inbox) < {}", settings.inbox), format!("inbox!{number};"))
+            };
+            let guard = and(&[in_time.clone(), room]);
+            self.writer.line(format!(":: {guard} -> {raise}"));
             self.say(&format!("raise {number}"));
             self.on_raise(index);
             self.writer.line("goto finished");
@@ -55,8 +58,14 @@ impl Emission<'_> {
             self.say(&format!("set {index}"));
             self.writer.line("goto finished");
         }
-        self.say_something();
-        self.writer.line(":: true");
+        let turn = if let Some(part) = self.part {
+            self.hear(&part.heard());
+            part.turn()
+        } else {
+            self.say_something();
+            ":: true".to_owned()
+        };
+        self.writer.line(turn);
         self.writer.line("fi;");
     }
 
@@ -148,7 +157,7 @@ impl Emission<'_> {
             match event {
                 Waiting::Posted(id) => self.run(id),
                 Waiting::Overdue(id) => match self.program.handler(id).failure {
-                    Some(failure) => self.run(failure),
+                    Some(failure) => self.run_from(failure, UNKNOWN_PEER),
                     None => self.writer.line("outcome = 2; goto handled"),
                 },
                 Waiting::Perceived(belief, id) => {
@@ -159,7 +168,10 @@ impl Emission<'_> {
                     self.writer.line(":: else -> goto take");
                     self.writer.line("fi");
                 }
-                Waiting::Asked(index) => self.run(self.program.asked[index].handler),
+                Waiting::Asked(index) => {
+                    let asked = &self.program.asked[index];
+                    self.run_from(asked.handler, &asked.sender.to_string());
+                }
                 Waiting::Told(index) => self.handle_told(index),
                 Waiting::External(index) => self.handle_external(index),
                 Waiting::Deferred(id) => {
@@ -196,15 +208,24 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn run_or_take(&mut self, handler: Option<HandlerId>) {
+    fn run_or_take(&mut self, handler: Option<HandlerId>) {
+        self.run_from_or_take(handler, &self.peers().me());
+    }
+
+    pub(super) fn run_from_or_take(&mut self, handler: Option<HandlerId>, peer: &str) {
         match handler {
-            Some(handler) => self.run(handler),
+            Some(handler) => self.run_from(handler, peer),
             None => self.writer.line("goto take"),
         }
     }
 
     fn run(&mut self, id: HandlerId) {
-        self.call(id);
+        self.run_from(id, &self.peers().me());
+    }
+
+    /// Runs the plans for an event that comes from a peer.
+    fn run_from(&mut self, id: HandlerId, peer: &str) {
+        self.call_from(id, peer);
         if self.program.handler(id).kind == TriggerKind::Belief {
             // A percept without an applicable plan is not a failure.
             self.writer.line("if");

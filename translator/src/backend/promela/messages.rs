@@ -60,29 +60,41 @@ impl Emission<'_> {
         }
         for (index, told) in self.program.told.iter().enumerate() {
             let held = self.held(told.belief);
-            let noticed = Self::is_noticed(told);
-            let guard = if noticed { "true".to_owned() } else { not(&held) };
+            let guard = if Self::is_noticed(told) { "true".to_owned() } else { not(&held) };
             self.writer.line(format!(":: {guard} ->"));
-            if noticed {
-                // The same value is not a change.
-                self.writer.line("if");
-                self.writer.line(format!(":: told_{index} = true"));
-                if !self.program.belief(told.belief).types.is_empty() {
-                    self.writer.line(format!(":: {held}"));
-                }
-                self.writer.line("fi;");
-            }
-            self.believe(told.belief);
+            self.believe_told(index);
             self.say(&format!("tells {index}"));
             self.writer.line("goto finished");
             self.writer.line(format!(":: {held} ->"));
-            if noticed {
-                self.writer.line(format!("told_{index} = true;"));
-            }
-            self.forget(told.belief);
+            self.forget_told(index);
             self.say(&format!("untells {index}"));
             self.writer.line("goto finished");
         }
+    }
+
+    /// A peer tells a belief, with any values.
+    pub(super) fn believe_told(&mut self, index: usize) {
+        let told = &self.program.told[index];
+        if Self::is_noticed(told) {
+            // The same value is not a change.
+            let held = self.held(told.belief);
+            let has_values = !self.program.belief(told.belief).types.is_empty();
+            let change = if has_values { "true".to_owned() } else { not(&held) };
+            self.writer.line("if");
+            self.writer.line(format!(":: {change} -> told_{index} = true"));
+            self.writer.line(format!(":: {held}"));
+            self.writer.line("fi;");
+        }
+        self.believe(told.belief);
+    }
+
+    /// A peer takes back a belief that is held.
+    pub(super) fn forget_told(&mut self, index: usize) {
+        let told = &self.program.told[index];
+        if Self::is_noticed(told) {
+            self.writer.line(format!("told_{index} = true;"));
+        }
+        self.forget(told.belief);
     }
 
     /// Takes what the next sender says, if anybody has said something. `before` is what waits with a higher priority.
@@ -119,16 +131,15 @@ impl Emission<'_> {
 
     /// Handles what a peer told or took back.
     pub(super) fn handle_told(&mut self, index: usize) {
-        let (belief, added, removed) = {
-            let told = &self.program.told[index];
-            (told.belief, told.added, told.removed)
-        };
+        let told = &self.program.told[index];
+        let (belief, added, removed) = (told.belief, told.added, told.removed);
+        let sender = told.sender.to_string();
         let held = self.held(belief);
         self.writer.line("if");
         self.writer.line(format!(":: {held} ->"));
-        self.run_or_take(added);
+        self.run_from_or_take(added, &sender);
         self.writer.line(":: else ->");
-        self.run_or_take(removed);
+        self.run_from_or_take(removed, &sender);
         self.writer.line("fi");
     }
 }

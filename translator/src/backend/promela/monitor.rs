@@ -1,6 +1,6 @@
 //! Monitors of properties. One is checked at a time, so they share their variables.
 
-use super::Emission;
+use super::{Emission, Writer};
 use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
 use crate::program::{BasicId, BeliefId};
 use crate::syntax::ast::Name;
@@ -14,8 +14,13 @@ impl Emission<'_> {
                 continue;
             }
             let name = &basic.name.text;
-            self.writer.open_here(format!("inline act_{name}()"));
+            self.writer.open_here(format!("inline {}()", self.act_name(name)));
             self.writer.open_here("d_step");
+            if let Some(part) = &self.part {
+                for deed in part.deeds(name) {
+                    self.writer.line(deed);
+                }
+            }
             for role in [Role::Main, Role::Cause, Role::Until] {
                 let concerned: Vec<String> = (1..)
                     .zip(self.properties())
@@ -42,6 +47,12 @@ impl Emission<'_> {
         self.writer.line("");
     }
 
+    /// The name of what a call of an action does.
+    pub(super) fn act_name(&self, action: &str) -> String {
+        let peer = self.part.as_ref().map_or_else(String::new, |part| format!("{}_", part.peer));
+        format!("act_{peer}{action}")
+    }
+
     /// Whether calls are printed and counted: those of actions, and of functions in properties.
     pub(super) fn is_printed(&self, id: BasicId) -> bool {
         self.program.basic(id).result.kind == TypeKind::Void || self.is_watched(id)
@@ -54,6 +65,7 @@ impl Emission<'_> {
         let watches =
             |property: &Property| roles.iter().any(|role| self.plays(property, *role, name));
         self.properties().iter().any(watches)
+            || self.part.as_ref().is_some_and(|part| !part.deeds(name).is_empty())
     }
 
     /// Whether an action has a role in a property.
@@ -99,7 +111,10 @@ impl Emission<'_> {
             }
             _ => Vec::new(),
         };
-        let cases = (1..).zip(self.properties().iter().map(case)).collect();
+        let cases = match &self.part {
+            Some(part) => part.on_raise(index),
+            None => (1..).zip(self.properties().iter().map(case)).collect(),
+        };
         self.of_the_checked(cases);
     }
 
@@ -139,6 +154,11 @@ impl Emission<'_> {
 
     /// A step has ended.
     pub(super) fn after_step(&mut self) {
+        if self.part.is_some() {
+            // What it has done counts in the round.
+            self.writer.line("lost = false;");
+            return;
+        }
         // The last one is of no property: it fails in each agent, or its steps do not end.
         let falsehood = std::iter::once(vec![when("true", "assert(false)")]);
         let judged = self.properties().iter().map(|p| self.judged(p));
@@ -181,34 +201,42 @@ impl Emission<'_> {
         }
     }
 
-    /// The cases of the property that is checked, in order.
     fn of_the_checked(&mut self, cases: Vec<(usize, Vec<Case>)>) {
-        self.writer.open_here("d_step");
-        self.writer.line("if");
-        for (number, cases) in cases.into_iter().filter(|(_, cases)| !cases.is_empty()) {
-            self.writer.line(format!(":: checked == {number} ->"));
-            self.writer.indent();
-            for Case { condition, then } in cases {
-                self.writer.line("if");
-                self.writer.line(format!(":: {condition} -> {then}"));
-                self.writer.line(":: else");
-                self.writer.line("fi;");
-            }
-            self.writer.dedent();
-        }
-        self.writer.line(":: else");
-        self.writer.line("fi;");
-        self.writer.close("};");
+        of_the_checked(&mut self.writer, cases);
     }
 }
 
+/// The cases of the property that is checked, in order.
+pub(super) fn of_the_checked(writer: &mut Writer, cases: Vec<(usize, Vec<Case>)>) {
+    let cases: Vec<_> = cases.into_iter().filter(|(_, cases)| !cases.is_empty()).collect();
+    if cases.is_empty() {
+        return;
+    }
+    writer.open_here("d_step");
+    writer.line("if");
+    for (number, cases) in cases {
+        writer.line(format!(":: checked == {number} ->"));
+        writer.indent();
+        for Case { condition, then } in cases {
+            writer.line("if");
+            writer.line(format!(":: {condition} -> {then}"));
+            writer.line(":: else");
+            writer.line("fi;");
+        }
+        writer.dedent();
+    }
+    writer.line(":: else");
+    writer.line("fi;");
+    writer.close("};");
+}
+
 /// A guarded statement.
-struct Case {
+pub(super) struct Case {
     condition: String,
     then: String,
 }
 
-fn when(condition: impl Into<String>, then: impl Into<String>) -> Case {
+pub(super) fn when(condition: impl Into<String>, then: impl Into<String>) -> Case {
     Case { condition: condition.into(), then: then.into() }
 }
 

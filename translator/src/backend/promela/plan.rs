@@ -1,6 +1,6 @@
 //! Handlers and plans.
 
-use super::choice::{Reader, matches};
+use super::choice::{Reader, UNKNOWN_PEER, matches};
 use super::logic::{Choice, and};
 use super::{Emission, Waiting};
 use crate::coverage::always_finds_a_plan;
@@ -25,7 +25,7 @@ impl Emission<'_> {
                     self.act(trace, plan.lines.0);
                 }
                 for placed in &plan.body {
-                    self.placed(id, placed);
+                    self.placed(id, index, placed);
                 }
                 self.writer.line(format!("outcome = 0; goto end_{};", id.0));
             }
@@ -34,7 +34,8 @@ impl Emission<'_> {
             if let Some(failure) = handler.failure {
                 self.writer.line("if");
                 self.writer.line(":: outcome != 0 ->");
-                self.call(failure);
+                let source = self.source(id).unwrap_or_else(|| UNKNOWN_PEER.to_owned());
+                self.call_from(failure, &source);
                 self.writer.line(":: else");
                 self.writer.line("fi;");
             }
@@ -44,9 +45,12 @@ impl Emission<'_> {
 
     /// Selects the first applicable plan.
     fn select(&mut self, id: HandlerId, handler: &Handler) {
-        let held = |id: BeliefId| self.held(id);
-        let mut reader = Reader::new(self.program, &self.comparisons, &held);
-        let choices: Vec<Choice> = handler.plans.iter().map(|plan| reader.applies(plan)).collect();
+        let (held, peers) = (|id: BeliefId| self.held(id), self.peers());
+        let mut reader = Reader::new(self.program, &self.comparisons, &held, &peers);
+        let source = self.source(id);
+        let source = source.as_deref();
+        let choices: Vec<Choice> =
+            handler.plans.iter().map(|plan| reader.applies(plan, source)).collect();
         self.writer.line(format!("run_{}:", id.0));
         if choices.len() > MOST_AT_ONCE {
             self.select_one_by_one(id, handler, choices);
@@ -59,6 +63,7 @@ impl Emission<'_> {
             self.writer.line(format!(":: {guard} ->"));
             handler.plans[..index].iter().for_each(|plan| self.rejected(plan));
             self.chosen(&handler.plans[index]);
+            self.choose_receivers(id, index);
             self.writer.line(format!("goto plan_{}_{index}", id.0));
             earlier = and(&[earlier, choice.fails]);
         }
@@ -76,6 +81,7 @@ impl Emission<'_> {
             self.writer.line("if");
             self.writer.line(format!(":: {} ->", choice.holds));
             self.chosen(&handler.plans[index]);
+            self.choose_receivers(id, index);
             self.writer.line(format!("goto plan_{}_{index}", id.0));
             self.writer.line(format!(":: {} ->", choice.fails));
             self.rejected(&handler.plans[index]);
@@ -118,7 +124,8 @@ impl Emission<'_> {
     pub(super) fn act(&mut self, basic: BasicId, line: usize) {
         if self.is_printed(basic) {
             self.say(&format!("action {} {line}", basic.0));
-            self.writer.line(format!("act_{}();", self.program.basic(basic).name.text));
+            let act = self.act_name(&self.program.basic(basic).name.text);
+            self.writer.line(format!("{act}();"));
         }
     }
 
@@ -148,12 +155,14 @@ impl Emission<'_> {
     }
 
     /// One formula.
-    fn placed(&mut self, id: HandlerId, placed: &Placed) {
+    fn placed(&mut self, id: HandlerId, plan: usize, placed: &Placed) {
         let Placed { line, step, .. } = placed;
         self.effects(id, step, *line);
         match step {
             // Their calls are made by `effects`.
-            Step::Action(_) | Step::Assign { .. } | Step::Broadcast { .. } => {}
+            Step::Action(call) => self.send((id, plan), call),
+            Step::Broadcast { basic, .. } => self.broadcast(*basic),
+            Step::Assign { .. } => {}
             Step::Add { belief, raise, .. } => self.add(id, *belief, *raise, *line),
             Step::Delete { belief, patterns, raise } => {
                 let matching = Choice { holds: self.held(*belief), fails: matches(patterns).fails };

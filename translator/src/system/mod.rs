@@ -1,0 +1,155 @@
+//! Systems: several agents that talk, the channels between them, and properties of the whole.
+//!
+//! ```text
+//! agents { first: relief.conf; second: relief.conf; };
+//! channels { capacity = 2; losses = 1; delay = 2; };
+//! properties {
+//!   one_at_a_time [REL-4]: never_together(first.flyToPlace, second.flyToPlace);
+//!   is_relieved [REL-5]: within(8, first.send_tell_low, second.flyToPlace);
+//! };
+//! ```
+//!
+//! In each round every agent makes one step, in any order. A message is under way until it arrives or is lost; those of
+//! one peer to another may overtake each other.
+
+mod compose;
+mod parser;
+
+use diagnostic::{Source, Span};
+
+pub use compose::{Member, ROOM, System, compose};
+
+use crate::TranslateError;
+use crate::configuration::ExternalTrigger;
+use crate::gather::gather;
+use crate::syntax::ast::Name;
+
+/// The ending of the names of files that describe systems.
+pub const ENDING: &str = "system";
+
+/// A parsed description of a system, whose names are not resolved.
+#[derive(Debug, Clone)]
+pub struct ParsedSystem {
+    name: String,
+    text: String,
+    declared: Declared,
+}
+
+/// What a text declares.
+#[derive(Debug, Clone, Default)]
+struct Declared {
+    agents: Vec<Agent>,
+    channels: Channels,
+    properties: Vec<SystemProperty>,
+}
+
+/// An agent of a system.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Agent {
+    /// The peer that it is.
+    pub peer: Name,
+    /// Path of its configuration, relative to the system's file.
+    pub configuration: String,
+}
+
+/// What lies between two agents, in each direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Channels {
+    /// How many messages can be under way; what is sent then is lost.
+    pub capacity: u32,
+    /// How many messages can be lost one after the other; `None`: any number.
+    pub losses: Option<u32>,
+    /// How many rounds a message can be under way after that in which it was sent; `None`: any number.
+    pub delay: Option<u32>,
+}
+
+impl Default for Channels {
+    fn default() -> Self {
+        Self { capacity: 2, losses: None, delay: None }
+    }
+}
+
+/// A property of a whole system.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SystemProperty {
+    /// Its name.
+    pub name: Name,
+    /// The requirements that it implements.
+    pub requirements: Vec<String>,
+    /// Its formula.
+    pub formula: SystemFormula,
+    /// The whole declaration.
+    pub span: Span,
+}
+
+/// Formula of a system's property.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SystemFormula {
+    /// `never_together(a.x, b.y)`: no two of the actions are called in the same round.
+    NeverTogether(Vec<AgentAction>),
+    /// `within(n, a.cause, b.x, c.y)`: after the cause one of the actions is called, in the rest of its round or in one of the
+    /// next.
+    Within {
+        /// Maximum number of rounds.
+        rounds: u32,
+        /// The cause.
+        cause: AgentCause,
+        /// The required actions.
+        answers: Vec<AgentAction>,
+    },
+}
+
+/// `first.hover`: an action of an agent, or a class of its actions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AgentAction {
+    /// The agent.
+    pub agent: Name,
+    /// The action or class.
+    pub action: Name,
+}
+
+/// What requires an answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum AgentCause {
+    /// `first.+!g`: the environment raised an event of an agent, and it was accepted.
+    Event(Name, ExternalTrigger),
+    /// An agent called an action.
+    Action(AgentAction),
+}
+
+impl SystemFormula {
+    /// The actions that the formula refers to: for [`Self::Within`] the cause, if it is one, then the answers.
+    pub fn actions(&self) -> Vec<&AgentAction> {
+        match self {
+            Self::NeverTogether(actions) => actions.iter().collect(),
+            Self::Within { cause: AgentCause::Action(cause), answers, .. } => {
+                std::iter::once(cause).chain(answers).collect()
+            }
+            Self::Within { answers, .. } => answers.iter().collect(),
+        }
+    }
+}
+
+impl ParsedSystem {
+    /// The agents, in the order in which they make their steps when the system is run.
+    pub fn agents(&self) -> &[Agent] {
+        &self.declared.agents
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source { name: &self.name, text: &self.text }
+    }
+}
+
+/// Parses the description of a system; `name` is its file's name for messages.
+///
+/// # Errors
+/// [`TranslateError::Refused`] with all errors.
+pub fn parse_system(name: &str, text: &str) -> Result<ParsedSystem, TranslateError> {
+    let (declared, diagnostics) = parser::parse(text);
+    let parsed = ParsedSystem { name: name.to_owned(), text: text.to_owned(), declared };
+    if diagnostics.is_empty() {
+        return Ok(parsed);
+    }
+    Err(TranslateError::Refused(gather([(diagnostics, parsed.source())])))
+}
