@@ -3,6 +3,7 @@
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use translator::system::{ENDING, System, compose, parse_system};
 use translator::{ParsedConfiguration, TranslateError, parse_configuration};
 
 /// Errors on reading an agent.
@@ -20,6 +21,26 @@ pub enum ReadError {
     /// The configuration has errors.
     #[error(transparent)]
     Configuration(#[from] TranslateError),
+}
+
+/// Whether a file describes a system of agents, by its name.
+pub(crate) fn is_system(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == ENDING)
+}
+
+/// Reads a system, and the agents that it names.
+///
+/// # Errors
+/// If a file cannot be read, or one of them has errors.
+pub fn read_system(path: &Path) -> Result<System, ReadError> {
+    let parsed = parse_system(&path.display().to_string(), &read(path)?)?;
+    let agents = parsed.agents().iter().map(|agent| {
+        let Agent { configuration, text, .. } =
+            Agent::read(&folder(path).join(&agent.configuration))?;
+        Ok((configuration, text))
+    });
+    let agents = agents.collect::<Result<Vec<_>, ReadError>>()?;
+    Ok(compose(&parsed, agents)?)
 }
 
 /// A configuration and the text of its agent.
@@ -59,7 +80,8 @@ impl Agent {
     }
 }
 
-fn folder(path: &Path) -> &Path {
+/// The folder of a file.
+pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 

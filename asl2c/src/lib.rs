@@ -33,7 +33,7 @@ mod tool;
 mod verify;
 mod written;
 
-pub use agent::{Agent, ReadError};
+pub use agent::{Agent, ReadError, read_system};
 pub use certify::{
     Bounds, Certified, CertifyError, Deviation, Evidence, Limits, PlanEvidence, PropertyEvidence,
     Reach, Reached, Requirement, Status, TestEvidence, Tool, ValidationEvidence,
@@ -48,8 +48,8 @@ pub use prove::{
     Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,
     Watch, prove, validate, validate_watched, violates,
 };
-pub use run::{Replay, Session, replay};
-pub use spin::{SPIN, SpinError, Verdict};
+pub use run::{Replay, Runs, Session, SystemSession, Weather, repeat, replay};
+pub use spin::{Counterexample, SPIN, SpinError, Verdict};
 pub use target::{Bound, Observed, OnTarget, TargetError, TraceDifference, on_host, on_target};
 pub use tool::ToolError;
 pub use verify::{Checked, VerifyError, is_refuted, verify};

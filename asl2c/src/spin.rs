@@ -4,10 +4,20 @@ use std::hash::{BuildHasher as _, RandomState};
 use std::path::Path;
 use std::process::{Command, Output};
 
-use translator::{CounterexampleStep, DeclaredProperty, Model};
+use translator::{CounterexampleStep, DeclaredProperty, Model, Move};
 
 /// The model checker.
 pub const SPIN: &str = "spin";
+
+/// The shortest way to the violation of a property.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Counterexample {
+    /// In the agents' terms.
+    pub steps: Vec<CounterexampleStep>,
+    /// Of a system: what happens, for those who repeat it.
+    pub moves: Vec<Move>,
+}
 
 /// Result of an exhaustive search.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,7 +25,7 @@ pub enum Verdict {
     /// The property holds in every environment.
     Holds,
     /// The property fails: the shortest counterexample.
-    Fails(Vec<CounterexampleStep>),
+    Fails(Counterexample),
     /// The search did not finish, with the reason.
     Undecided(String),
 }
@@ -34,7 +44,7 @@ impl Verdict {
     /// The shortest counterexample; empty unless the property fails.
     pub fn counterexample(&self) -> &[CounterexampleStep] {
         match self {
-            Self::Fails(way) => way,
+            Self::Fails(way) => &way.steps,
             Self::Holds | Self::Undecided(_) => &[],
         }
     }
@@ -102,7 +112,9 @@ pub(crate) fn check(
                 Found::NoEnd(said) => Verdict::Undecided(said),
                 Found::Failure => {
                     run(*number, &IN_BREADTH, DEPTH)?;
-                    Verdict::Fails(model.explain(&run(*number, &IN_BREADTH, "-r")?))
+                    let replay = run(*number, &IN_BREADTH, "-r")?;
+                    let (steps, moves) = (model.explain(&replay), model.moves(&replay));
+                    Verdict::Fails(Counterexample { steps, moves })
                 }
             };
             Ok((property.clone(), verdict))

@@ -33,6 +33,7 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         }
         CommandError::Print { .. } => general("not-printed", None),
         CommandError::Typed(_) => general("not-read", None),
+        CommandError::Usage(_) => general("usage", None),
         CommandError::New(_) => general("not-made", None),
         CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {
             general("not-written", None)

@@ -13,7 +13,7 @@ mod run;
 mod stop;
 mod target;
 mod validate;
-mod verdicts;
+mod verify;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -23,9 +23,8 @@ use clap::Parser as _;
 use judged_c::Refused;
 use translator::{Code, Diagnostic, Diagnostics, Severity, TranslateError, translate};
 
-use self::arguments::{Arguments, Task, Verify, is_json};
+use self::arguments::{Arguments, Task, is_json};
 use self::messages::{denied, error_lines, line, lines};
-use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
 use crate::certify::CertifyError;
 use crate::current::StaleError;
@@ -37,7 +36,7 @@ use crate::output::{self, OutputError};
 use crate::prove::ProveError;
 use crate::target::TargetError;
 use crate::tool::ToolError;
-use crate::verify::{VerifyError, verify};
+use crate::verify::VerifyError;
 use crate::written::WriteError;
 
 /// Errors of the program.
@@ -75,6 +74,9 @@ enum CommandError {
     /// The prompt fails, or its input cannot be read.
     #[error("cannot read the input: {0}")]
     Typed(String),
+    /// Arguments that do not fit the system.
+    #[error("{0}")]
+    Usage(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
@@ -122,7 +124,7 @@ pub fn run() -> ExitCode {
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Validate(asked)), _) => (validate::run(asked), is_json(&asked.message_format)),
         (Some(Task::Certify(asked)), _) => (certify::run(asked), is_json(&asked.message_format)),
-        (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
+        (Some(Task::Verify(asked)), _) => (verify::run(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))
         }
@@ -154,24 +156,6 @@ fn serve_editor() -> Result<ExitCode, CommandError> {
     let ended = lsp::serve(std::io::stdin(), &mut std::io::stdout().lock());
     let orderly = ended.map_err(|source| CommandError::Print { what: "an answer", source })?;
     Ok(if orderly { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-}
-
-fn check(asked: &Verify) -> Result<ExitCode, CommandError> {
-    let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
-    let model = translator::model(&configuration, &text)?;
-    if asked.model {
-        print("the model", &model.promela())?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    let detail = match (asked.json, asked.quiet) {
-        (true, _) => Detail::Json,
-        (false, true) => Detail::Failures,
-        (false, false) => Detail::All,
-    };
-    let only: Vec<&str> = asked.only.iter().map(String::as_str).collect();
-    let checked = verify(&model, &only)?;
-    print("the result", &verdicts::printed(&model, &checked, detail))?;
-    Ok(verdicts::status(&checked))
 }
 
 fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {

@@ -4,12 +4,13 @@ use std::io::{BufRead as _, IsTerminal as _};
 use std::process::ExitCode;
 
 use diagnostic::{Diagnostic, Source};
+use translator::system::Channels;
 
 use super::arguments::Run;
 use super::prompt::Prompt;
 use super::{CommandError, complain_of, print};
-use crate::agent::{self, Agent};
-use crate::run::{Session, is_skipped, replay};
+use crate::agent::{self, Agent, is_system, read_system};
+use crate::run::{Runs, Session, SystemSession, Weather, is_skipped, replay};
 
 /// Plans may be nested deeper than the usual stack allows.
 const STACK_BYTES: usize = 256 << 20;
@@ -25,19 +26,40 @@ pub(super) fn run(asked: &Run) -> Result<ExitCode, CommandError> {
 }
 
 fn converse(asked: &Run) -> Result<ExitCode, CommandError> {
+    if is_system(&asked.configuration) {
+        let system = read_system(&asked.configuration)?;
+        let weather = weather(asked, system.channels)?;
+        return execute(asked, &mut SystemSession::new(&system, weather)?);
+    }
     let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
-    let mut session = Session::new(&configuration, &text)?;
+    execute(asked, &mut Session::new(&configuration, &text)?)
+}
+
+/// What the channels do, which is within their bounds.
+fn weather(asked: &Run, channels: Channels) -> Result<Weather, CommandError> {
+    let weather = Weather { loss_percent: asked.loss, delay_rounds: asked.delay, seed: asked.seed };
+    let refused = |what: String| Err(CommandError::Usage(what));
+    if asked.loss > 0 && channels.losses == Some(0) {
+        return refused("the channels of this system lose nothing: leave `--loss` out".to_owned());
+    }
+    if let Some(most) = channels.delay.filter(|most| asked.delay > *most) {
+        return refused(format!("in this system a message is at most {most} rounds late"));
+    }
+    Ok(weather)
+}
+
+fn execute(asked: &Run, session: &mut dyn Runs) -> Result<ExitCode, CommandError> {
     if let Some(path) = &asked.script {
         let script = agent::read(path)?;
-        let replayed = replay(&mut session, &path.display().to_string(), &script);
+        let replayed = replay(session, &path.display().to_string(), &script);
         print("the output", &replayed.shown)?;
         return Ok(status(replayed.is_fine()));
     }
     if std::io::stdin().is_terminal() {
-        talk(&mut session)?;
+        talk(session)?;
         return Ok(ExitCode::SUCCESS);
     }
-    follow(&mut session)
+    follow(session)
 }
 
 fn status(is_fine: bool) -> ExitCode {
@@ -45,7 +67,7 @@ fn status(is_fine: bool) -> ExitCode {
 }
 
 /// Executes piped input, each line as it arrives.
-fn follow(session: &mut Session) -> Result<ExitCode, CommandError> {
+fn follow(session: &mut dyn Runs) -> Result<ExitCode, CommandError> {
     let mut fine = true;
     for (index, line) in std::io::stdin().lock().lines().enumerate() {
         let line = line.map_err(|error| CommandError::Typed(error.to_string()))?;
@@ -63,7 +85,7 @@ fn follow(session: &mut Session) -> Result<ExitCode, CommandError> {
 }
 
 /// Executes lines from a terminal. Their errors do not change the exit status.
-fn talk(session: &mut Session) -> Result<(), CommandError> {
+fn talk(session: &mut dyn Runs) -> Result<(), CommandError> {
     let mut prompt =
         Prompt::new(session.words()).map_err(|error| CommandError::Typed(error.to_string()))?;
     while !session.is_ended() {
@@ -77,7 +99,7 @@ fn talk(session: &mut Session) -> Result<(), CommandError> {
 }
 
 /// Executes the last line of a text and prints its output. Returns whether it had no error.
-fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, CommandError> {
+fn show(session: &mut dyn Runs, text: &str, start: usize) -> Result<bool, CommandError> {
     match session.execute(&text[start..]) {
         Ok(lines) => {
             let mut shown = lines.join("\n");

@@ -18,7 +18,7 @@ pub use self::independence::Independence;
 use self::search::{Found, search};
 use crate::agent::Agent;
 use crate::headers::HeaderError;
-use crate::run::{Session, call_name, replay, test_acts};
+use crate::run::{Runs as _, Session, call_name, replay, test_acts};
 use crate::tool::{ToolError, run, write};
 
 /// Why there is no coverage.

@@ -6,7 +6,7 @@ use translator::configuration::Configuration;
 use translator::interpreter::Value;
 use translator::types::{CType, TypeKind};
 
-use crate::run::fields;
+use crate::run::{fields, numbers};
 
 /// The numbers in an agent's text, also those in comments.
 pub(super) struct Numbers {
@@ -16,10 +16,7 @@ pub(super) struct Numbers {
 
 impl Numbers {
     pub(super) fn new(text: &str) -> Self {
-        let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
-        let words = words.map(|word| word.trim_end_matches('.'));
-        let words = words.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()));
-        let mut words: Vec<&str> = words.chain(["0", "1"]).collect();
+        let mut words: Vec<&str> = numbers(text).chain(["0", "1"]).collect();
         words.sort_unstable();
         words.dedup();
         let real = words.iter().filter_map(|word| word.parse::<f64>().ok());

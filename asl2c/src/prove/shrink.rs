@@ -3,7 +3,7 @@
 use translator::interpreter::Value;
 
 use super::trace::{Kind, Way};
-use crate::run::Session;
+use crate::run::{Runs as _, Session};
 
 /// Maximum number of attempts, whatever the length.
 const MOST: u32 = 4000;

@@ -11,13 +11,14 @@ use translator::{CounterexampleStep, ParsedConfiguration, TranslateError};
 
 use super::monitor::Monitors;
 use super::script::{Statement, parse_line, words};
+use super::transcript::Runs;
 use super::values::zero;
 use super::world::{Answers, World};
 
 /// Shown for a step without an event.
 pub(crate) const IDLE: &str = "no event is pending";
 /// Number of states kept for `undo`.
-const KEPT: usize = 500;
+pub(super) const KEPT: usize = 500;
 
 /// An agent that is run interactively or by a script.
 ///
@@ -26,6 +27,7 @@ const KEPT: usize = 500;
 ///     basics { void switchOn(void); }; types { light(void); }; triggerables { +!light; };";
 /// let configuration = translator::parse_configuration("lamp.conf", configuration)?;
 /// let mut session = asl2c::Session::new(&configuration, "+!light <- switchOn.")?;
+/// use asl2c::Runs as _;
 /// let shown = session.execute("achieve_light(); next_step();").unwrap();
 /// assert_eq!(shown, ["switchOn()"]);
 /// # Ok::<(), translator::TranslateError>(())
@@ -70,48 +72,13 @@ impl Session {
         Ok(Self { configuration, now, before: VecDeque::new(), broken: Vec::new(), ended: false })
     }
 
-    /// Executes a line and returns its output. Actions are shown as calls; lines that begin with `//` are
-    /// comments.
-    ///
-    /// # Errors
-    /// The error in the line, with its span. Nothing of the line is executed then, or, if a step is too long,
-    /// nothing from that step on.
-    pub fn execute(&mut self, line: &str) -> Result<Vec<String>, Diagnostic> {
-        self.broken.clear();
-        let statements = parse_line(line, &self.configuration)?;
-        let mut shown = Vec::new();
-        let changes = |statement: &Statement| {
-            !matches!(
-                statement,
-                Statement::Mind | Statement::Help | Statement::Quit | Statement::Undo(_)
-            )
-        };
-        if statements.iter().any(changes) {
-            self.before.push_back(self.now.clone());
-            if self.before.len() > KEPT {
-                self.before.pop_front();
-            }
+    /// Begins as a peer whose messages are collected.
+    pub(super) fn be_in_a_system(&mut self, peer: usize) {
+        self.now.agent.be(peer);
+        for (name, performative, message) in self.configuration.receiving() {
+            let action = name.replacen("receive_", "send_", 1);
+            self.now.world.sending.insert(action, (performative, message.name.text.clone()));
         }
-        for statement in statements {
-            self.statement(statement, &mut shown)
-                .map_err(|message| Diagnostic::error(message, 0..line.len()))?;
-        }
-        Ok(shown)
-    }
-
-    /// Names of the properties that the last line violated.
-    pub fn broken(&self) -> &[String] {
-        &self.broken
-    }
-
-    /// Whether `quit` was executed.
-    pub fn is_ended(&self) -> bool {
-        self.ended
-    }
-
-    /// Possible beginnings of a line, for completion.
-    pub fn words(&self) -> Vec<String> {
-        words(&self.configuration)
     }
 
     /// Number of steps since the start.
@@ -164,7 +131,11 @@ impl Session {
         Some(peer.text.clone())
     }
 
-    fn statement(&mut self, statement: Statement, shown: &mut Vec<String>) -> Result<(), String> {
+    pub(super) fn statement(
+        &mut self,
+        statement: Statement,
+        shown: &mut Vec<String>,
+    ) -> Result<(), String> {
         match statement {
             Statement::Raise(event, values) => self.raise(&event, values, shown),
             Statement::Set(belief, values) => self.now.agent.set(belief, values),
@@ -224,7 +195,7 @@ impl Session {
     }
 
     /// The beliefs, the pending events, and the last step.
-    fn mind(&self) -> Vec<String> {
+    pub(super) fn mind(&self) -> Vec<String> {
         let State { agent, world, steps, .. } = &self.now;
         let mut lines = Vec::new();
         let section = |lines: &mut Vec<String>, title: &str, empty: &str, entries: Vec<String>| {
@@ -268,6 +239,43 @@ impl Session {
             );
         }
         lines
+    }
+}
+
+impl Runs for Session {
+    fn execute(&mut self, line: &str) -> Result<Vec<String>, Diagnostic> {
+        self.broken.clear();
+        let statements = parse_line(line, &self.configuration)?;
+        let mut shown = Vec::new();
+        let changes = |statement: &Statement| {
+            !matches!(
+                statement,
+                Statement::Mind | Statement::Help | Statement::Quit | Statement::Undo(_)
+            )
+        };
+        if statements.iter().any(changes) {
+            self.before.push_back(self.now.clone());
+            if self.before.len() > KEPT {
+                self.before.pop_front();
+            }
+        }
+        for statement in statements {
+            self.statement(statement, &mut shown)
+                .map_err(|message| Diagnostic::error(message, 0..line.len()))?;
+        }
+        Ok(shown)
+    }
+
+    fn broken(&self) -> &[String] {
+        &self.broken
+    }
+
+    fn is_ended(&self) -> bool {
+        self.ended
+    }
+
+    fn words(&self) -> Vec<String> {
+        words(&self.configuration)
     }
 }
 

@@ -7,7 +7,23 @@ use translator::Act;
 use translator::configuration::Configuration;
 
 use super::script::{acts, is_skipped};
-use super::session::Session;
+
+/// An agent or a system that is run line by line.
+pub trait Runs {
+    /// Executes a line and returns its output. Actions are shown as calls; lines that begin with `//` are
+    /// comments.
+    ///
+    /// # Errors
+    /// The error in the line, with its span. Nothing of the line is executed then, or, if a step is too long,
+    /// nothing from that step on.
+    fn execute(&mut self, line: &str) -> Result<Vec<String>, Diagnostic>;
+    /// Names of the properties that the last line violated.
+    fn broken(&self) -> &[String];
+    /// Whether `quit` was executed.
+    fn is_ended(&self) -> bool;
+    /// Possible beginnings of a line, for completion.
+    fn words(&self) -> Vec<String>;
+}
 
 /// Result of a script.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +47,7 @@ impl Replay {
 /// Runs a script of this name. If some of its lines begin with `>` it is a transcript: those lines are
 /// executed, and the lines between them are the expected output. Comments, `// ..`, may be missing from a
 /// transcript.
-pub fn replay(session: &mut Session, name: &str, text: &str) -> Replay {
+pub fn replay(session: &mut dyn Runs, name: &str, text: &str) -> Replay {
     let mut replay = Replay { shown: String::new(), errors: 0, broken: Vec::new() };
     let is_transcript = text.lines().any(|line| line.starts_with('>'));
     let source = Source { name, text };
@@ -90,7 +106,7 @@ pub(crate) fn test_acts(
 impl Replay {
     fn line(
         &mut self,
-        session: &mut Session,
+        session: &mut dyn Runs,
         source: &Source<'_>,
         (start, command): (usize, &str),
         expected: Option<&Vec<&str>>,

@@ -26,6 +26,13 @@ pub(crate) fn fields(ctype: &CType, configuration: &Configuration) -> Vec<CType>
     })
 }
 
+/// The numbers in an agent's text, also those in comments.
+pub(crate) fn numbers(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
+    let words = words.map(|word| word.trim_end_matches('.'));
+    words.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()))
+}
+
 /// Parses a value; the error describes the expected form.
 pub(super) fn parse(word: &str, ctype: &CType) -> Result<Value, String> {
     match ctype.kind {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use translator::CounterexampleStep;
 use translator::interpreter::{Environment, Value};
+use translator::syntax::ast::Performative;
 use translator::types::{CType, TypeKind};
 
 /// Results of one function: these values in turn; the last one repeats.
@@ -33,6 +34,12 @@ pub(super) struct World {
     pub(super) trace: Option<String>,
     /// Number of calls of each basic action or function in the step.
     pub(super) calls: BTreeMap<String, u32>,
+    /// The actions that send messages of a system: what they send.
+    pub(super) sending: BTreeMap<String, (Performative, String)>,
+    /// All calls of the step in their order, in a system.
+    pub(super) sequence: Vec<String>,
+    /// What was sent in the step, with the receiver first.
+    pub(super) sent: Vec<(Performative, String, Vec<Value>)>,
     /// Events of the step, with their causes.
     pub(super) story: Vec<CounterexampleStep>,
 }
@@ -42,6 +49,8 @@ impl World {
     pub(super) fn begin_step(&mut self) {
         self.shown.clear();
         self.calls.clear();
+        self.sequence.clear();
+        self.sent.clear();
         self.story.clear();
     }
 
@@ -58,6 +67,12 @@ impl Environment for World {
 
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
         *self.calls.entry(name.to_owned()).or_default() += 1;
+        if !self.sending.is_empty() {
+            self.sequence.push(name.to_owned());
+        }
+        if let Some((performative, about)) = self.sending.get(name) {
+            self.sent.push((*performative, about.clone(), arguments.to_vec()));
+        }
         if result.kind == TypeKind::Void {
             // In the form of the guide's transcripts.
             let arguments: Vec<String> = (arguments.iter())

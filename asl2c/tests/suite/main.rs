@@ -24,6 +24,7 @@ mod rounded;
 mod run;
 #[cfg(target_os = "linux")]
 mod stopped;
+mod systems;
 mod tool;
 mod tricks;
 mod validated;

@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use asl2c::{Session, replay};
+use asl2c::{Runs as _, Session, replay};
 use translator::parse_configuration;
 
 const GUIDE: &str = include_str!("../../../docs/agentspeak.md");

@@ -1,0 +1,343 @@
+//! Systems of agents: those of the gallery, faults in them, and what is refused.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use asl2c::{Runs as _, SystemSession, Weather, read_system, replay};
+use insta::assert_snapshot;
+
+const GALLERY: &str = "../translator/agents";
+const SYSTEMS: [&str; 4] = ["contract", "corridor", "corridor_calm", "relief"];
+
+fn asl2c(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asl2c")).args(arguments).output().unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+#[test]
+fn every_system_is_in_the_gallery_and_its_readme() {
+    let readme = fs::read_to_string(format!("{GALLERY}/README.md")).unwrap();
+    let files =
+        fs::read_dir(format!("{GALLERY}/systems")).unwrap().map(|file| file.unwrap().path());
+    let mut found: Vec<String> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "system"))
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    found.sort();
+    assert_eq!(found, SYSTEMS);
+    assert!(found.iter().all(|name| readme.contains(&format!("`{name}.system`"))));
+}
+
+#[test]
+fn every_property_of_the_gallerys_systems_holds() {
+    for name in SYSTEMS {
+        let output = asl2c(&["verify", &format!("{GALLERY}/systems/{name}.system")]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
+    }
+}
+
+#[test]
+fn every_transcript_is_what_the_system_does() {
+    for name in ["contract", "corridor", "relief"] {
+        let path = format!("{GALLERY}/systems/{name}");
+        let system = read_system(Path::new(&format!("{path}.system"))).unwrap();
+        let mut session = SystemSession::new(&system, Weather::CALM).unwrap();
+        let text = fs::read_to_string(format!("{path}.transcript")).unwrap();
+        let replayed = replay(&mut session, name, &text);
+        assert!(replayed.is_fine(), "{name} {:?}\n{}", replayed.broken, replayed.shown);
+    }
+}
+
+/// A system, a file of its agents, a text in it and what stands there instead, and the properties that this breaks.
+type Fault = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
+
+/// Each with a way that agents with values can go.
+const FAULTS: [Fault; 16] = [
+    ("corridor", "systems/keeper.asl", " <- +taken; .send", " <- .send", &["one_at_a_time"]),
+    (
+        "corridor",
+        "systems/traveller.asl",
+        ".send(keeper, untell, waiting).",
+        ".send(keeper, untell, waiting); .send(keeper, achieve, release).",
+        &["one_at_a_time"],
+    ),
+    (
+        "corridor",
+        "systems/traveller.asl",
+        "<- hold; +wants",
+        "<- hold; +inside",
+        &["one_at_a_time"],
+    ),
+    (
+        "corridor",
+        "systems/keeper.conf",
+        "release from left, right, 1",
+        "release from left, right, 2",
+        &[],
+    ),
+    (
+        "corridor_calm",
+        "systems/traveller.asl",
+        "-inside; .send(keeper, achieve, release)",
+        "-inside",
+        &["is_used"],
+    ),
+    (
+        "corridor_calm",
+        "systems/traveller.asl",
+        "hold; .send(keeper, achieve, release).",
+        "hold.",
+        &["is_used"],
+    ),
+    ("corridor_calm", "systems/traveller.asl", "inside <- pass", "inside <- hold", &["is_used"]),
+    (
+        "contract",
+        "systems/manager.asl",
+        ".send(far, achieve, work)",
+        ".send(far, achieve, work); .send(near, achieve, work)",
+        &["one_works", "is_begun"],
+    ),
+    (
+        "contract",
+        "systems/manager.asl",
+        "not open & not busy",
+        "not open",
+        &["one_works", "is_begun"],
+    ),
+    ("contract", "systems/bidder.asl", "<- rest; +working.", "<- rest.", &["is_begun"]),
+    (
+        "contract",
+        "systems/bidder.asl",
+        "tell, bid(1000)).",
+        "tell, bid(1000)); +working.",
+        &["one_works"],
+    ),
+    (
+        "contract",
+        "systems/bidder.asl",
+        "<- rest; .send(manager, tell, bid(1000)).",
+        "<- rest.",
+        &["is_given"],
+    ),
+    (
+        "relief",
+        "relief.asl",
+        "<- flyToPlace",
+        "<- hover",
+        &["first_is_relieved", "second_is_relieved"],
+    ),
+    (
+        "relief",
+        "relief.asl",
+        "+!wait : watching[source(self)] <- watch",
+        "+!wait : watching[source(self)] <- hover",
+        &["first_is_relieved"],
+    ),
+    (
+        "relief",
+        "relief.asl",
+        "not watching[source(self)] <- goHome",
+        "not watching[source(self)] <- flyToPlace",
+        &["one_flies"],
+    ),
+    (
+        "relief",
+        "systems/relief.system",
+        "delay = 1",
+        "delay = 6",
+        &["first_is_relieved", "second_is_relieved"],
+    ),
+];
+
+/// A copy of the gallery with a fault.
+fn with_fault(file: &str, from: &str, to: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("systems")).unwrap();
+    for part in ["", "systems"] {
+        for entry in fs::read_dir(Path::new(GALLERY).join(part)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                fs::copy(&path, folder.path().join(part).join(path.file_name().unwrap())).unwrap();
+            }
+        }
+    }
+    let path = folder.path().join(file);
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{file}: {from}");
+    fs::write(path, text.replacen(from, to, 1)).unwrap();
+    folder
+}
+
+#[test]
+fn faults_are_found_and_can_be_repeated() {
+    for (name, file, from, to, properties) in FAULTS {
+        let folder = with_fault(file, from, to);
+        let system = folder.path().join("systems").join(format!("{name}.system"));
+        let system = system.to_str().unwrap();
+        let output = asl2c(&["verify", system, "--json"]);
+        if properties.is_empty() {
+            // The messages differ.
+            assert!(said(&output).contains("has other messages than"), "{}", said(&output));
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(1), "{file} {to}: {}", said(&output));
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for wanted in properties {
+            let mut all = json["properties"].as_array().unwrap().iter();
+            let property = all.find(|property| property["name"] == *wanted).unwrap();
+            assert_eq!(property["verdict"], "fails", "{file} {to} {wanted}");
+            let script = property["script"].as_str();
+            let script = script.unwrap_or_else(|| panic!("{file} {to} {wanted} is not repeated"));
+            let again = asl2c(&["run", system, "--script", script]);
+            assert_eq!(again.status.code(), Some(1), "{}", said(&again));
+            assert!(said(&again).contains(&format!("breaks `{wanted}`")), "{}", said(&again));
+        }
+    }
+}
+
+/// Two agents that tell each other a number.
+const PAIR: &str = "settings { input = INPUT; output = a.c; header = a.h; basics = b.h; };
+    basics { void act(int32_t); bool ready(void); };
+    peers { one, two }; messages { tell seen(int32_t) from any; achieve go from one, 1; };
+    types { live(void); start(void); }; triggerables { +!start; };
+    properties { few: at_most_one(act); };";
+const TALKS: &str = "!live. +!live : ready & seen(X)[source(P)] & P \\== self <- act(X); .send(P, tell, seen(X + 1)); !!live.
+    +!live <- !!live. +!go <- act(0). +!start <- .send(two, achieve, go); .broadcast(tell, seen(1)).";
+
+fn pair(system: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("a.conf", &PAIR.replace("INPUT", "a.asl"));
+    write(
+        "b.conf",
+        &PAIR.replace("INPUT", "a.asl").replace("peers { one, two }", "peers { two, one }"),
+    );
+    write("a.asl", TALKS);
+    write("a.system", system);
+    folder
+}
+
+const AGENTS: &str = "agents { one: a.conf; two: a.conf; }; ";
+
+#[test]
+fn what_does_not_fit_is_refused_with_its_place() {
+    let mut all = String::new();
+    for text in [
+        "agents { one: a.conf; };",
+        "agents { one: a.conf; three: a.conf; };",
+        "agents { one: a.conf; two: b.conf; };",
+        "agents { one: a.conf; two: none.conf; };",
+        "agents { one: a.conf; two: a.conf; } properties { p: never_together(one.act, two.acts); };",
+        "agents { one: a.conf; two: a.conf; } properties { p: never_together(one.act, one.act); };",
+        "agents { one: a.conf; two: a.conf; } properties { p: never_together(one.act, three.act); };",
+        "agents { one: a.conf; two: a.conf; } properties { p: within(3, one.+!go, two.act); };",
+        "agents { one: a.conf; two: a.conf; } properties { p: within(3, one.+!start, two.send_untell_seen); };",
+    ] {
+        let folder = pair(text);
+        let output = Command::new(env!("CARGO_BIN_EXE_asl2c"))
+            .args(["verify", "a.system"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(3), "{text}");
+        all += &said(&output);
+    }
+    assert_snapshot!(all);
+}
+
+fn shown(channels: &str, weather: Weather, lines: &[&str]) -> String {
+    let folder = pair(&format!("{AGENTS}{channels}"));
+    let system = read_system(&folder.path().join("a.system")).unwrap();
+    let mut session = SystemSession::new(&system, weather).unwrap();
+    let told = lines.iter().map(|line| match session.execute(line) {
+        Ok(shown) => format!(
+            "> {line}\n{}",
+            shown.iter().map(|line| format!("{line}\n")).collect::<String>()
+        ),
+        Err(error) => {
+            let help = error.help.map_or(String::new(), |help| format!(" ({help})"));
+            format!("> {line}\nerror {:?}: {}{help}\n", error.span, error.message)
+        }
+    });
+    told.collect()
+}
+
+#[test]
+fn messages_arrive_are_lost_and_overtake_each_other() {
+    let lines = [
+        "one: achieve_start(); achieve_start();",
+        "step",
+        "one: next_step()",
+        "channels",
+        "two: step",
+        "deliver one two 3",
+        "deliver one two 2",
+        "one: step",
+        "one: step",
+        "two: step",
+        "two: step",
+        "lose one two",
+        "deliver one two",
+        "mind two",
+        "undo",
+        "deliver two one",
+        "step 2",
+        "two: step 2",
+        "two: receive_tell_seen(one, 3)",
+        "two: clear(); ",
+        "two: step; step",
+        "two: undo",
+        "two: sept",
+        "one: ready_result = true // and on",
+        "step 2",
+        "one: achieve_start()",
+        "step 2",
+        "lose one",
+        "deliver one three",
+        "four: step",
+        "sept",
+        "step 0",
+        "step 1 2",
+        "undo 100",
+        "help",
+        "quit",
+    ];
+    let channels = "channels { capacity = 2; losses = 0; delay = 1; };";
+    assert_snapshot!(shown(channels, Weather::CALM, &lines));
+}
+
+#[test]
+fn weather_is_the_same_for_the_same_seed_and_within_the_bounds() {
+    let steps =
+        ["one: ready_result = true", "two: ready_result = true", "one: achieve_start()", "step 60"];
+    let channels = "channels { capacity = 3; losses = 1; delay = 2; };";
+    let weather = |seed| Weather { loss_percent: 40, delay_rounds: 2, seed };
+    let first = shown(channels, weather(7), &steps);
+    assert_eq!(first, shown(channels, weather(7), &steps));
+    assert_ne!(first, shown(channels, weather(8), &steps));
+    let lost = first.lines().filter(|line| line.ends_with(", lost")).count();
+    assert!(lost > 5, "{first}");
+    // Of two messages to the same agent at least one arrives.
+    for to in ["one", "two"] {
+        let mut before = false;
+        for line in first.lines().filter(|line| line.contains(&format!("-> {to}: "))) {
+            let is_lost = line.ends_with(", lost");
+            assert!(!(before && is_lost), "{first}");
+            before = is_lost;
+        }
+    }
+    let folder = pair(&format!("{AGENTS}channels {{ losses = 0; delay = 1; }};"));
+    let path = folder.path().join("a.system");
+    for (options, message) in [
+        (["--loss", "3"], "the channels of this system lose nothing"),
+        (["--delay", "2"], "at most 1 rounds late"),
+    ] {
+        let output = asl2c(&[&["run", path.to_str().unwrap()], options.as_slice()].concat());
+        assert_eq!(output.status.code(), Some(1));
+        assert!(said(&output).contains(message), "{}", said(&output));
+    }
+}
