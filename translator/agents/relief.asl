@@ -13,11 +13,13 @@
 
 // It has arrived.
 +!wait : isAtPlace & not watching[source(self)] & not low[source(self)]
-  <- hover; +watching; .broadcast(tell, watching); !!wait.
+  <- watch; +watching; .broadcast(tell, watching); !!wait.
 
 // The other one is low and has to be relieved.
 @relieves[req("REL-3")]
 +!wait : low[source(P)] & P \== self & not low[source(self)] & not watching[source(self)]
   <- flyToPlace; !!wait.
+
++!wait : watching[source(self)] <- watch; !!wait.
 
 +!wait <- hover; !!wait.
