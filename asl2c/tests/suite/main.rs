@@ -25,6 +25,7 @@ mod run;
 #[cfg(target_os = "linux")]
 mod stopped;
 mod systems;
+mod systems_proved;
 mod tool;
 mod tricks;
 mod validated;

@@ -7,11 +7,15 @@ use super::{Emission, Waiting};
 use crate::program::{BeliefId, HandlerId};
 use crate::syntax::ast::{Operator, TriggerKind};
 
+/// One agent's environment may do something at any time.
+fn free() -> (String, String) {
+    ("true".to_owned(), String::new())
+}
+
 impl Emission<'_> {
     /// Possible transitions: an event is raised, a belief is set, or the agent takes a step.
     pub(super) fn environment(&mut self) {
         self.writer.line("if");
-        let in_time = self.part.map_or_else(|| "true".to_owned(), |part| part.round_goes_on());
         for (index, external) in self.program.external.iter().enumerate() {
             let number = self.number(Waiting::External(index));
             let settings = &self.program.configuration.settings;
@@ -22,8 +26,9 @@ impl Emission<'_> {
             } else {
                 (format!("len(inbox) < {}", settings.inbox), format!("inbox!{number};"))
             };
-            let guard = and(&[in_time.clone(), room]);
-            self.writer.line(format!(":: {guard} -> {raise}"));
+            let (when, then) = self.part.map_or_else(free, |part| part.environment(Some(index)));
+            let guard = and(&[when, room]);
+            self.writer.line(format!(":: {guard} -> {then}{raise}"));
             self.say(&format!("raise {number}"));
             self.on_raise(index);
             self.writer.line("goto finished");
@@ -44,7 +49,9 @@ impl Emission<'_> {
             if guard == "false" {
                 continue;
             }
-            self.writer.line(format!(":: {guard} ->"));
+            let (when, then) = self.part.map_or_else(free, |part| part.environment(None));
+            let guard = and(&[when, guard]);
+            self.writer.line(format!(":: {guard} -> {then}"));
             if belief.perceived.is_some() {
                 // The same value is not a change.
                 self.writer.line("if");
@@ -86,6 +93,7 @@ impl Emission<'_> {
         self.writer.line(":: else");
         self.writer.line("fi;");
         self.writer.line("stepped: event = 0;");
+        self.forget_sources();
         self.after_step();
         self.writer.line("goto finished;");
     }

@@ -143,6 +143,19 @@ impl<'a> Emission<'a> {
         if self.part.is_some() { &[] } else { &self.program.configuration.properties }
     }
 
+    /// The variables with peers, which have no meaning between two steps.
+    fn sources(&self) -> Vec<String> {
+        let sources = self.program.handlers().filter_map(|(id, _)| self.source(id));
+        sources.chain(self.all_receivers()).collect()
+    }
+
+    /// Two states that differ only there are one.
+    fn forget_sources(&mut self) {
+        for variable in self.sources() {
+            self.writer.line(format!("{variable} = 0;"));
+        }
+    }
+
     /// The number of an event.
     fn number(&self, event: Waiting) -> usize {
         1 + self.events.iter().take_while(|other| **other != event).count()
@@ -194,12 +207,9 @@ impl<'a> Emission<'a> {
         for (id, _) in program.handlers() {
             writer.line(format!("{number} return_{};", id.0));
         }
-        for (id, _) in self.program.handlers() {
-            if let Some(source) = self.source(id) {
-                self.writer.line(format!("byte {source};"));
-            }
+        for variable in self.sources() {
+            self.writer.line(format!("byte {variable};"));
         }
-        self.declare_receivers();
         let writer = &mut self.writer;
         if self.part.is_none() {
             writer.line(

@@ -43,6 +43,7 @@ pub(crate) fn emit_system(system: &System) -> String {
     writer
         .line(format!("bool {}; /* for the property, in this round */", flags(system).join(", ")));
     writer.line("short due;");
+    writer.line("byte acting; /* the agent that makes the next step, from 1 */");
     let agents: Vec<String> =
         system.members.iter().map(|member| agent(system, member, &mut writer)).collect();
     let mut model = writer.finish();
@@ -98,13 +99,30 @@ impl Way {
 impl Part<'_> {
     /// The guard of the agent's step.
     pub(super) fn turn(&self) -> String {
-        format!(":: !moved_{0} -> moved_{0} = true", self.peer)
+        let Self { peer, .. } = self;
+        format!(":: {} && !moved_{peer} -> moved_{peer} = true; acting = 0", self.may_act())
     }
 
-    /// Whether some agent has still to make its step: an event after that belongs to the next round.
-    pub(super) fn round_goes_on(&self) -> String {
-        let members = self.system.members.iter();
-        or(&members.map(|member| format!("!moved_{}", member.peer)).collect::<Vec<_>>())
+    /// Whether no other agent is about to make its step.
+    fn may_act(&self) -> String {
+        format!("(acting == 0 || acting == {})", self.peer + 1)
+    }
+
+    /// When the agent's environment does something, and that the agent's step is then the next one.
+    ///
+    /// Nobody else sees an event or belief before the agent has made its step: it is enough to have them directly before it.
+    /// An event that begins an answer's time may come at any time, but after all steps of a round it belongs to the next.
+    pub(super) fn environment(&self, event: Option<usize>) -> (String, String) {
+        let is_cause = event
+            .is_some_and(|index| self.on_raise(index).iter().any(|(_, cases)| !cases.is_empty()));
+        if is_cause {
+            let members = self.system.members.iter();
+            let goes_on = members.map(|member| format!("!moved_{}", member.peer));
+            let goes_on = or(&goes_on.collect::<Vec<_>>());
+            return (and(&[self.may_act(), goes_on]), String::new());
+        }
+        let when = format!("!moved_{}", self.peer);
+        (and(&[self.may_act(), when]), format!("acting = {}; ", self.peer + 1))
     }
 
     /// All ways of the messages that the agent sends.
@@ -201,14 +219,14 @@ impl Emission<'_> {
     /// Transitions of an agent in a system: a message arrives.
     pub(super) fn hear(&mut self, heard: &[Way]) {
         let Some(part) = self.part else { return };
-        let kinds = kinds(part.system);
+        let (kinds, may_act) = (kinds(part.system), part.may_act());
         for way in heard {
             let Way { from, kind, .. } = *way;
             let (performative, name) = kinds[kind];
             for (age, counter) in way.counters(part.system).enumerate() {
                 let pair = way.pair();
                 self.writer.line(format!(
-                    ":: {counter} > 0 -> {counter}--; load_{pair}--; lost_{pair} = 0;"
+                    ":: {may_act} && {counter} > 0 -> {counter}--; load_{pair}--; lost_{pair} = 0;"
                 ));
                 self.say(&format!("hears {from} {kind} {age}"));
                 let (mut asked, mut told) = (self.program.asked.iter(), self.program.told.iter());
@@ -266,14 +284,13 @@ impl Emission<'_> {
         receivers
     }
 
-    pub(super) fn declare_receivers(&mut self) {
-        for (id, handler) in self.program.handlers() {
-            for plan in 0..handler.plans.len() {
-                for variable in self.receivers((id, plan)) {
-                    self.writer.line(format!("byte {};", receiver((id, plan), variable)));
-                }
-            }
-        }
+    pub(super) fn all_receivers(&self) -> Vec<String> {
+        let plans = self.program.plans();
+        let receivers = plans.flat_map(|(id, plan, _)| {
+            let own = self.receivers((id, plan)).into_iter();
+            own.map(move |variable| receiver((id, plan), variable))
+        });
+        receivers.collect()
     }
 
     /// A plan is chosen: whom its variables stand for, by the way in which it applies.
