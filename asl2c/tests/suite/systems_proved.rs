@@ -313,12 +313,9 @@ fn run(
         let agent = random.below(agents.len());
         match random.below(6) {
             0 if moved.contains(&false) => {
-                if agents[agent]
-                    .raise(Operator::Add, TriggerKind::Achieve, "start", Vec::new())
-                    .is_ok()
-                {
-                    happens(&mut monitors, agent, "+!start");
-                }
+                let (kind, none) = (TriggerKind::Achieve, Vec::new());
+                let raised = agents[agent].raise(Operator::Add, kind, "start", none);
+                raised.into_iter().for_each(|()| happens(&mut monitors, agent, "+!start"));
             }
             1 => {
                 let level = Value::Integer(i128::try_from(random.below(5)).unwrap());
@@ -371,7 +368,9 @@ fn run(
         let is_late =
             |message: &Message| bounds.delay.is_some_and(|most| message.round + most <= round);
         if !moved.contains(&false) && !under_way.iter().any(is_late) && random.chance(70) {
-            monitors.iter_mut().for_each(|monitor| monitor.round_ends(round));
+            for monitor in &mut monitors {
+                monitor.round_ends(round);
+            }
             moved.fill(false);
             round += 1;
         }
