@@ -315,7 +315,9 @@ fn run(
             0 if moved.contains(&false) => {
                 let (kind, none) = (TriggerKind::Achieve, Vec::new());
                 let raised = agents[agent].raise(Operator::Add, kind, "start", none);
-                raised.into_iter().for_each(|()| happens(&mut monitors, agent, "+!start"));
+                if let Ok(()) = raised {
+                    happens(&mut monitors, agent, "+!start");
+                }
             }
             1 => {
                 let level = Value::Integer(i128::try_from(random.below(5)).unwrap());
