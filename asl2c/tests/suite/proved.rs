@@ -9,7 +9,7 @@ use std::process::Command;
 
 use translator::interpreter::{Environment, Interpreter, Value};
 use translator::parse_configuration;
-use translator::syntax::ast::{Operator, TriggerKind};
+use translator::syntax::ast::{Operator, Performative, TriggerKind};
 use translator::types::{CType, TypeKind};
 
 use crate::harness::{from_environment, skip};
@@ -37,6 +37,8 @@ impl Random {
 const BASICS: &str = "void on(void); void off(void); void idle(void); bool flash(int); int read(void); bool dark(void); int64_t now(void);";
 /// Calls that properties count.
 const COUNTED: [&str; 8] = ["on", "off", "idle", "flash", "read", "dark", "now", "shows"];
+/// Those of agents that talk, too.
+const SENT: [&str; 3] = ["send_tell_seen", "send_tell_at", "send_achieve_dim"];
 
 /// The basic actions of a name.
 fn members(name: &str) -> &[&str] {
@@ -48,6 +50,9 @@ fn members(name: &str) -> &[&str] {
         "read" => &["read"],
         "dark" => &["dark"],
         "now" => &["now"],
+        "send_tell_seen" => &["send_tell_seen"],
+        "send_tell_at" => &["send_tell_at"],
+        "send_achieve_dim" => &["send_achieve_dim"],
         _ => &["on", "flash"],
     }
 }
@@ -56,9 +61,25 @@ fn value(random: &mut Random) -> String {
     random.of(&["1", "3", "X", "read", "X + 1", "6 / X", "X + read"]).to_owned()
 }
 
-fn condition(random: &mut Random) -> String {
+/// The peers of agents that talk, which begin as the first of them.
+const PEERS: [&str; 3] = ["ann", "bob", "cid"];
+const TALK: &str = "peers { ann, bob, cid };\n\
+    messages { tell seen from any; tell at(int) from bob, cid; achieve dim(int) from any, 2; achieve light from cid; };\n";
+
+fn condition(random: &mut Random, talks: bool) -> String {
     let value = value(random);
-    match random.below(11) {
+    let peer = random.of(&PEERS);
+    match random.below(if talks { 17 } else { 11 }) {
+        11 => format!("seen[source({})]", random.of(&["self", peer, "_"])),
+        12 => format!("not seen[source({})]", random.of(&["self", peer, "_"])),
+        13 => format!(
+            "seen[source(P{0})] & P{0} {1} self",
+            random.below(1000),
+            random.of(&["==", "\\=="])
+        ),
+        14 => format!("at(A{0})[source(Q{0})] & A{0} > {value}", random.below(1000)),
+        15 => format!("not (at(_)[source({peer})] & dark)").replace("ann", "bob"),
+        16 => format!(".my_name({peer})"),
         0 => "flag".to_owned(),
         1 => "not flag".to_owned(),
         2 => "dark".to_owned(),
@@ -86,8 +107,18 @@ fn condition(random: &mut Random) -> String {
 }
 
 /// A formula; without goals to call it changes no belief either, so that there is no cycle.
-fn formula(random: &mut Random, goals: &[&str]) -> String {
+fn formula(random: &mut Random, goals: &[&str], talks: bool) -> String {
     let value = value(random);
+    if talks && random.chance(20) {
+        let peer = random.of(&PEERS);
+        return match random.below(if goals.is_empty() { 3 } else { 5 }) {
+            0 => format!(".send({peer}, tell, at({value}))"),
+            1 => ".broadcast(tell, seen)".to_owned(),
+            2 => format!(".send({peer}, achieve, dim({value}))"),
+            3 => "+seen".to_owned(),
+            _ => "-seen".to_owned(),
+        };
+    }
     match random.below(if goals.is_empty() { 8 } else { 16 }) {
         0 | 1 => "on".to_owned(),
         2 => "off".to_owned(),
@@ -106,14 +137,20 @@ fn formula(random: &mut Random, goals: &[&str]) -> String {
     }
 }
 
-fn plan(random: &mut Random, trigger: &str, goals: &[&str], posts: &[&str]) -> String {
-    let conditions: Vec<String> = (0..random.below(3)).map(|_| condition(random)).collect();
+fn plan(
+    random: &mut Random,
+    (trigger, talks): (&str, bool),
+    goals: &[&str],
+    posts: &[&str],
+) -> String {
+    let conditions: Vec<String> = (0..random.below(3)).map(|_| condition(random, talks)).collect();
     let context = if conditions.is_empty() {
         String::new()
     } else {
         format!(" : {}", conditions.join(" & "))
     };
-    let mut body: Vec<String> = (0..random.below(4)).map(|_| formula(random, goals)).collect();
+    let mut body: Vec<String> =
+        (0..random.below(4)).map(|_| formula(random, goals, talks)).collect();
     if !posts.is_empty() && random.chance(40) {
         let deadline = if random.chance(20) { "[deadline(5)]" } else { "" };
         body.push(format!("!{}{deadline}", random.of(posts)));
@@ -126,7 +163,7 @@ fn plan(random: &mut Random, trigger: &str, goals: &[&str], posts: &[&str]) -> S
     if trigger.contains('X') { text } else { text.replace('X', "2") }
 }
 
-fn agent(random: &mut Random) -> String {
+fn agent(random: &mut Random, talks: bool) -> String {
     let mut text = String::new();
     if random.chance(30) {
         text.push_str("flag.\n");
@@ -148,13 +185,21 @@ fn agent(random: &mut Random) -> String {
         ("-!inner", &[], &[]),
         ("+store(X)", &[], &[]),
         ("-flag", &[], &[]),
+        ("+seen", &[], &[]),
+        ("-seen[source(_)]", &[], &["wait"]),
+        ("+at(X)[source(bob)]", inner, &["dim(X)"]),
+        ("-at(X)", &[], &[]),
     ] {
-        let optional = trigger.starts_with('-') || trigger == "+store(X)";
+        let is_told = trigger.contains("seen") || trigger.contains("at(X)");
+        if is_told && !talks {
+            continue;
+        }
+        let optional = trigger.starts_with('-') || trigger == "+store(X)" || is_told;
         if optional && random.chance(60) {
             continue;
         }
         for _ in 0..=random.below(2) {
-            let plan = plan(random, trigger, goals, posts);
+            let plan = plan(random, (trigger, talks), goals, posts);
             text.push_str(&plan);
         }
     }
@@ -185,8 +230,9 @@ enum Cause {
 }
 
 impl DeclaredProperty {
-    fn random(random: &mut Random) -> Self {
-        let action = random.of(&COUNTED);
+    fn random(random: &mut Random, talks: bool) -> Self {
+        let action =
+            if talks && random.chance(30) { random.of(&SENT) } else { random.of(&COUNTED) };
         match random.below(9) {
             0..4 => Self::Count(
                 random.of(&["never", "at_most_one", "at_least_one", "exactly_one", "never"]),
@@ -330,6 +376,24 @@ impl Environment for World<'_> {
     }
 }
 
+/// A peer says something.
+fn hears(interpreter: &mut Interpreter, random: &mut Random) {
+    let (performative, about) = random.of(&[
+        (Performative::Tell, "seen"),
+        (Performative::Untell, "seen"),
+        (Performative::Tell, "at"),
+        (Performative::Untell, "at"),
+        (Performative::Achieve, "dim"),
+        (Performative::Achieve, "light"),
+        (Performative::Unachieve, "dim"),
+    ]);
+    let value = Value::Integer(i128::try_from(random.below(4)).unwrap());
+    let has_value = performative.has_arguments() && ["at", "dim"].contains(&about);
+    let values = if has_value { vec![value] } else { Vec::new() };
+    // What is refused is no message.
+    _ = interpreter.receive(random.below(PEERS.len()), performative, about, values);
+}
+
 /// Runs an agent. Returns the violated properties.
 fn runs(
     random: &mut Random,
@@ -342,11 +406,14 @@ fn runs(
     let mut interpreter = Interpreter::new(&parsed, agent).ok()?;
     let mut broken = vec![false; promises.len()];
     for _ in 0..120 {
-        interpreter.init();
+        // The model knows no name of its own.
+        interpreter.be(random.below(PEERS.len()));
+        let talks = !parsed.declarations().peers.is_empty();
         let mut world = World { random, level: None, tells: false, now: 0, calls: BTreeMap::new() };
         let mut monitors = vec![Monitor::default(); promises.len()];
         for _ in 0..25 {
-            match world.random.below(6) {
+            match world.random.below(if talks { 9 } else { 6 }) {
+                6.. => hears(&mut interpreter, world.random),
                 number @ (0 | 1) => {
                     let (goal, arguments) = if number == 0 {
                         ("light", Vec::new())
@@ -415,9 +482,10 @@ fn nothing_that_a_run_breaks_is_proved() {
         Random(0x9E37_79B9_7F4A_7C15 ^ u64::from(from_environment("ASL2C_PROVED_SEED", 1)));
     let (mut checked, mut proved, mut broken_in_runs, mut undecided) = (0, 0, 0, 0);
     while checked < agents {
-        let text = agent(&mut random);
+        let talks = random.chance(50);
+        let text = agent(&mut random, talks);
         let promises: Vec<DeclaredProperty> =
-            (0..5).map(|_| DeclaredProperty::random(&mut random)).collect();
+            (0..5).map(|_| DeclaredProperty::random(&mut random, talks)).collect();
         let properties: String = promises
             .iter()
             .enumerate()
@@ -430,7 +498,8 @@ fn nothing_that_a_run_breaks_is_proved() {
              basics {{ {BASICS} }};\nclasses {{ shows: on, flash; }};\n\
              types {{ wait(void); light(void); dim(int); inner(void); deep(int); flag(void); level(int); store(int); asked(int); }};\n\
              settables {{ level; }};\ntriggerables {{ +!light; +!dim; }};\npreemptive {{ {preemptive} }};\n\
-             properties {{ {properties} }};\n"
+             properties {{ {properties} }};\n{}",
+            if talks { TALK } else { "" }
         );
         let Some(broken) = runs(&mut random, &configuration, &text, &promises) else { continue };
         checked += 1;
