@@ -72,6 +72,8 @@ pub(crate) struct Asked {
     pub(crate) handler: HandlerId,
     /// How many may wait.
     pub(crate) room: usize,
+    /// Whether it aborts the pending event.
+    pub(crate) preemptive: bool,
 }
 
 /// Index into [`Program::handlers`].
@@ -522,6 +524,17 @@ impl Program {
             (external.operator, external.kind, &external.name)
                 == (event.operator, event.kind, &event.name.text)
         })
+    }
+
+    /// Goals that pre-empt if a peer asks for them, by priority.
+    pub(crate) fn urgent(&self) -> impl Iterator<Item = &str> {
+        let names = self.configuration.preemptive.iter().map(|trigger| trigger.name.text.as_str());
+        names.filter(|name| self.asked.iter().any(|asked| asked.preemptive && asked.name == *name))
+    }
+
+    /// Whether anything aborts the pending event.
+    pub(crate) fn has_preemptive(&self) -> bool {
+        self.external.iter().any(|external| external.preemptive) || self.urgent().next().is_some()
     }
 
     /// The constant of a peer in C.

@@ -124,11 +124,14 @@ impl Analysis<'_> {
                 let Some(handler) = handler(self, Operator::Add, TriggerKind::Achieve) else {
                     continue;
                 };
+                let mut preemptive = self.configuration.preemptive.iter();
+                let preemptive = preemptive.any(|goal| goal.name.text == *name);
                 asked.extend(message.senders.iter().map(|sender| Asked {
                     name: name.clone(),
                     sender: *sender,
                     handler,
                     room: message.room,
+                    preemptive,
                 }));
                 continue;
             }
@@ -157,11 +160,16 @@ impl Analysis<'_> {
         let place = first.span.clone();
         let receiving = self.configuration.receiving().into_iter();
         let receiving = receiving.map(|(name, _, message)| (name, message.span.clone()));
-        let own = OWN.iter().map(|name| ((*name).to_owned(), place.clone()));
+        let urgent = self.configuration.preemptive.iter().flat_map(|trigger| {
+            let goal = &trigger.name.text;
+            [format!("take_urgent_{goal}"), format!("hear_urgent_{goal}")]
+        });
+        let own = OWN.iter().map(|name| (*name).to_owned()).chain(urgent);
+        let own: Vec<_> = own.map(|name| (name, place.clone())).collect();
         let peers = self.configuration.peers.iter();
         let constants = peers.map(|peer| (peer_constant(&peer.text), peer.span.clone()));
         let structs = &self.configuration.structs;
-        for (name, span) in own.chain(receiving).chain(constants) {
+        for (name, span) in own.into_iter().chain(receiving).chain(constants) {
             let is_struct = structs.iter().any(|declared| {
                 // The constants of peers are macros, which fields cannot be called either.
                 let mut fields = declared.fields.iter();

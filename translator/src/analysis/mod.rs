@@ -422,17 +422,29 @@ impl Analysis<'_> {
                 (other.operator, other.kind, &other.name.text)
                     == (trigger.operator, trigger.kind, &trigger.name.text)
             });
-            if !listed {
+            // A goal or belief of peers.
+            let sent = configuration.is_sourced(trigger.kind, &trigger.name.text);
+            if !listed && !sent {
                 self.findings.configuration.push(
                     Code::NotTriggerable
                         .at("a pre-emptive event must be triggerable", trigger.span.clone())
-                        .help("list it in `triggerables` too"),
+                        .help(
+                            "list it in `triggerables` too, or in `messages` if peers ask for it",
+                        ),
                 );
             } else if trigger.kind != TriggerKind::Achieve {
                 self.findings.configuration.push(
                     Code::NotPreemptive
                         .at("only goals can pre-empt", trigger.span.clone())
                         .help("raise a goal, `+!goal`, instead"),
+                );
+            } else if !listed
+                && self.handler_id(trigger.operator, trigger.kind, &trigger.name.text).is_none()
+            {
+                self.findings.configuration.push(
+                    Code::MissingPlan
+                        .at(format!("no plan for `+!{}`", trigger.name.text), trigger.span.clone())
+                        .help("what is urgent would be refused"),
                 );
             }
         }

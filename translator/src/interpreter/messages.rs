@@ -24,6 +24,8 @@ pub(super) struct Mail {
     /// The peers that are heard first.
     asked_turn: usize,
     told_turn: usize,
+    /// For each goal that pre-empts.
+    urgent_turns: BTreeMap<String, usize>,
 }
 
 impl Mail {
@@ -32,6 +34,7 @@ impl Mail {
         self.changed.clear();
         self.asked.clear();
         (self.asked_turn, self.told_turn) = (0, 0);
+        self.urgent_turns.clear();
     }
 
     /// What is believed.
@@ -114,6 +117,25 @@ impl Interpreter {
         types
     }
 
+    /// The next peer that waits with a goal, from this one on, and what it gives the goal.
+    fn next_asked(&mut self, goal: &str, sender: usize) -> Option<Event> {
+        let waiting = self.mail.asked.get_mut(&(goal.to_owned(), sender));
+        let mut arguments = waiting.and_then(VecDeque::pop_front)?;
+        arguments.push(peer(sender));
+        let key = (Operator::Add, TriggerKind::Achieve, goal.to_owned());
+        Some(Event { key, arguments, origin: Origin::Agent })
+    }
+
+    /// The next event of a goal that pre-empts.
+    pub(super) fn next_urgent(&mut self, goal: &str) -> Option<Event> {
+        let peers = self.configuration.peers.len();
+        let first = self.mail.urgent_turns.get(goal).copied().unwrap_or_default();
+        let (sender, event) = in_turn(first, peers)
+            .find_map(|sender| Some((sender, self.next_asked(goal, sender)?)))?;
+        self.mail.urgent_turns.insert(goal.to_owned(), (sender + 1) % peers);
+        Some(event)
+    }
+
     /// The next message that has plans: goals first, then beliefs that were told or taken back.
     pub(super) fn next_message(&mut self) -> Option<Event> {
         let configuration = std::sync::Arc::clone(&self.configuration);
@@ -124,13 +146,12 @@ impl Interpreter {
                 .map(|message| message.name.text.clone())
         };
         for sender in in_turn(self.mail.asked_turn, peers) {
+            // What pre-empts has been looked for before.
             for name in names(Performative::Achieve) {
-                let waiting = self.mail.asked.get_mut(&(name.clone(), sender));
-                let Some(mut arguments) = waiting.and_then(VecDeque::pop_front) else { continue };
-                self.mail.asked_turn = (sender + 1) % peers;
-                arguments.push(peer(sender));
-                let key = (Operator::Add, TriggerKind::Achieve, name);
-                return Some(Event { key, arguments, origin: Origin::Agent });
+                if let Some(event) = self.next_asked(&name, sender) {
+                    self.mail.asked_turn = (sender + 1) % peers;
+                    return Some(event);
+                }
             }
         }
         while !self.mail.changed.is_empty() {
@@ -157,16 +178,24 @@ impl Interpreter {
         None
     }
 
-    /// What waits of what peers said, without its order of service.
+    /// Such goals that peers ask for, without their order of service.
+    pub(super) fn asked_for(&self, is_such: impl Fn(&str) -> bool) -> Vec<String> {
+        let asked = self.mail.asked.iter().filter(|((goal, _), _)| is_such(goal));
+        let goals = asked.flat_map(|((goal, sender), waiting)| {
+            waiting.iter().map(move |values| {
+                let head = with_values(&format!("+!{goal}"), values);
+                format!("{head}[source({})]", self.peer_text(&peer(*sender)))
+            })
+        });
+        goals.collect()
+    }
+
+    /// What waits of what peers said and does not pre-empt, without its order of service.
     pub(super) fn said(&self) -> Vec<String> {
         let configuration = &self.configuration;
         let name = |number: usize| configuration.peers.get(number).map_or("?", |peer| &peer.text);
-        let asked = self.mail.asked.iter().flat_map(|((goal, sender), waiting)| {
-            waiting.iter().map(move |values| {
-                let head = with_values(&format!("+!{goal}"), values);
-                format!("{head}[source({})]", name(*sender))
-            })
-        });
+        let preempts = |goal: &str| configuration.preemptive.iter().any(|t| t.name.text == goal);
+        let asked = self.asked_for(|goal| !preempts(goal)).into_iter();
         let changed = self.mail.changed.iter().filter(|(belief, _)| {
             [Operator::Add, Operator::Delete]
                 .into_iter()

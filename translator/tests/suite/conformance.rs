@@ -30,7 +30,7 @@ use translator::{ParsedConfiguration, parse_configuration, translate};
 use crate::harness::{compile_and_run, trimmed_lines};
 
 /// All rules of the language, each of which the suite must cover.
-const RULES: [&str; 154] = [
+const RULES: [&str; 156] = [
     "program comments",
     "program left out",
     "program empty parentheses",
@@ -164,6 +164,8 @@ const RULES: [&str; 154] = [
     "message goal source",
     "message goal waits",
     "message goal posted",
+    "message preempt",
+    "message preempt turns",
     "message send",
     "message broadcast",
     "message clear",

@@ -195,9 +195,11 @@ impl Talker {
                     _ = write!(perceived, "{name}; ");
                 }
             }
-            if predicate.is_raised && *is_goal {
-                _ = write!(raised, "+!{name}; ");
-                if choices.chance(15) {
+            if *is_goal {
+                if predicate.is_raised {
+                    _ = write!(raised, "+!{name}; ");
+                }
+                if (predicate.is_raised || !senders.is_empty()) && choices.chance(25) {
                     _ = write!(preemptive, "+!{name}; ");
                 }
             } else if predicate.is_raised {

@@ -231,7 +231,7 @@ fn the_configuration_is_checked_too() {
     4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
       |                                                                ^^^^
       |
-      = help: list it in `triggerables` too
+      = help: list it in `triggerables` too, or in `messages` if peers ask for it
 
     error: only goals can pre-empt
      --> agent.conf:4:70
@@ -526,4 +526,23 @@ fn what_is_found_is_data() {
     let error = translator::parse_configuration("a.conf", "colours { };").unwrap_err();
     let codes: Vec<&str> = error.diagnostics().iter().map(|found| found.code).collect();
     assert_eq!(codes, ["unknown-section"]);
+}
+
+/// The messages of rendered errors, with their places.
+fn places(rendered: &str) -> String {
+    let lines = rendered.lines().filter(|line| line.starts_with("error") || line.contains("-->"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn only_goals_with_plans_pre_empt_for_peers() {
+    insta::assert_snapshot!(
+        places(&refused_with("peers { ann, bob }; messages { tell b(int) from any; achieve gi(int) from any; }; preemptive { +b; +!gi; };", "!g. +!g <- act(1).")),
+        @r"
+    error: only goals can pre-empt
+     --> agent.conf:4:96
+    error: no plan for `+!gi`
+     --> agent.conf:4:100
+    "
+    );
 }

@@ -1,7 +1,8 @@
 //! The layout of the agent's state, one list for the C struct and its Rust mirror.
 
 use super::said::{
-    TURNS, asked_name, asked_types, has_values, noticed, ring_field, ring_parts, told_name,
+    TOLD_TURN, asked_name, asked_turns, asked_types, has_values, noticed, ring_field, ring_parts,
+    told_name,
 };
 use crate::configuration::Instance;
 use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
@@ -99,9 +100,8 @@ impl StateLayout {
     }
 
     fn messages(&mut self, program: &Program) {
-        let [asked_turn, told_turn] = TURNS;
-        if !program.asked.is_empty() {
-            self.field(asked_turn.to_owned(), FieldType::Count, None);
+        for turn in asked_turns(program) {
+            self.field(turn, FieldType::Count, None);
         }
         if has_values(program) {
             self.field("asked_taken".to_owned(), FieldType::Count, None);
@@ -118,7 +118,7 @@ impl StateLayout {
             }
         }
         if noticed(program).next().is_some() {
-            self.field(told_turn.to_owned(), FieldType::Count, None);
+            self.field(TOLD_TURN.to_owned(), FieldType::Count, None);
         }
         for told in noticed(program) {
             let name = told_name(program, told);
@@ -193,7 +193,6 @@ pub(crate) struct Counter {
 
 /// All counters of the agent.
 pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
-    let preempted = program.external.iter().any(|external| external.preemptive);
     let always = [
         Counter {
             name: "unhandled",
@@ -208,7 +207,7 @@ pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
         name: "aborted",
         meaning: "Posted events since the start that a pre-empting one replaced.",
     };
-    always.into_iter().chain(preempted.then_some(aborted))
+    always.into_iter().chain(program.has_preemptive().then_some(aborted))
 }
 
 /// Place of a pending event.

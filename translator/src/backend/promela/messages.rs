@@ -2,11 +2,11 @@
 
 use super::logic::not;
 use super::{Emission, Waiting};
-use crate::program::Told;
+use crate::program::{Asked, Told};
 
 /// A kind of messages that wait: those of one sender are served in their order, senders in turn.
 struct Kind {
-    turn: &'static str,
+    turn: String,
     /// For each sender: whether something waits, what taking it changes, and its event.
     slots: Vec<(usize, String, String, Waiting)>,
 }
@@ -16,20 +16,26 @@ impl Emission<'_> {
         told.added.is_some() || told.removed.is_some()
     }
 
-    fn kinds(&self) -> [Kind; 2] {
-        let asked = self.program.asked.iter().enumerate();
+    /// Such goals that peers ask for.
+    fn asked(&self, turn: String, is_such: impl Fn(&Asked) -> bool) -> Kind {
+        let asked = self.program.asked.iter().enumerate().filter(|(_, asked)| is_such(asked));
         let asked = asked.map(|(index, asked)| {
             let count = format!("asked_{index}");
             (asked.sender, format!("{count} > 0"), format!("{count}--"), Waiting::Asked(index))
         });
+        Kind { turn, slots: asked.collect() }
+    }
+
+    /// What does not pre-empt.
+    fn kinds(&self) -> [Kind; 2] {
         let told = self.program.told.iter().enumerate();
         let told = told.filter(|(_, told)| Self::is_noticed(told)).map(|(index, told)| {
             let flag = format!("told_{index}");
             (told.sender, flag.clone(), format!("{flag} = false"), Waiting::Told(index))
         });
         [
-            Kind { turn: "asked_turn", slots: asked.collect() },
-            Kind { turn: "told_turn", slots: told.collect() },
+            self.asked("asked_turn".to_owned(), |asked| !asked.preemptive),
+            Kind { turn: "told_turn".to_owned(), slots: told.collect() },
         ]
     }
 
@@ -38,6 +44,9 @@ impl Emission<'_> {
             return;
         }
         self.writer.line("byte asked_turn, told_turn; /* the sender that is heard first */");
+        for goal in self.program.urgent() {
+            self.writer.line(format!("byte urgent_turn_{goal};"));
+        }
         for index in 0..self.program.asked.len() {
             self.writer.line(format!("byte asked_{index};"));
         }
@@ -87,34 +96,45 @@ impl Emission<'_> {
 
     /// Takes what the next sender says, if anybody has said something. `before` is what waits with a higher priority.
     pub(super) fn take_messages(&mut self, before: &mut Vec<String>) {
-        let peers = self.program.configuration.peers.len();
-        for Kind { turn, slots } in self.kinds() {
-            if slots.is_empty() {
-                continue;
-            }
-            let waiting: Vec<&str> =
-                slots.iter().map(|(_, waiting, ..)| waiting.as_str()).collect();
-            let waiting = format!("({})", waiting.join(" || "));
-            let mut all = before.clone();
-            all.push(waiting.clone());
-            self.writer.line(format!(":: {} ->", all.join(" && ")));
-            self.writer.line("do");
-            for sender in 0..peers {
-                let next = (sender + 1) % peers;
-                let mut guard = vec![format!("{turn} == {sender}")];
-                for (_, waiting, taken, event) in slots.iter().filter(|(own, ..)| *own == sender) {
-                    let number = self.number(*event);
-                    self.writer.line(format!(
-                        ":: {} && {waiting} -> {taken}; event = {number}; {turn} = {next}; break",
-                        guard.join(" && ")
-                    ));
-                    guard.push(format!("!({waiting})"));
-                }
-                self.writer.line(format!(":: {} -> {turn} = {next}", guard.join(" && ")));
-            }
-            self.writer.line("od");
-            before.push(format!("!{waiting}"));
+        for kind in self.kinds() {
+            self.take_in_turn(&kind, "", before);
         }
+    }
+
+    /// Takes this goal, which pre-empts, if a peer asks for it.
+    pub(super) fn take_urgent(&mut self, goal: &str, before: &mut Vec<String>) {
+        let turn = format!("urgent_turn_{goal}");
+        let kind = self.asked(turn, |asked| asked.preemptive && asked.name == goal);
+        self.take_in_turn(&kind, " posted = 0; limited = 0;", before);
+    }
+
+    fn take_in_turn(&mut self, kind: &Kind, first: &str, before: &mut Vec<String>) {
+        let peers = self.program.configuration.peers.len();
+        let Kind { turn, slots } = kind;
+        if slots.is_empty() {
+            return;
+        }
+        let waiting: Vec<&str> = slots.iter().map(|(_, waiting, ..)| waiting.as_str()).collect();
+        let waiting = format!("({})", waiting.join(" || "));
+        let mut all = before.clone();
+        all.push(waiting.clone());
+        self.writer.line(format!(":: {} ->{first}", all.join(" && ")));
+        self.writer.line("do");
+        for sender in 0..peers {
+            let next = (sender + 1) % peers;
+            let mut guard = vec![format!("{turn} == {sender}")];
+            for (_, waiting, taken, event) in slots.iter().filter(|(own, ..)| *own == sender) {
+                let number = self.number(*event);
+                self.writer.line(format!(
+                    ":: {} && {waiting} -> {taken}; event = {number}; {turn} = {next}; break",
+                    guard.join(" && ")
+                ));
+                guard.push(format!("!({waiting})"));
+            }
+            self.writer.line(format!(":: {} -> {turn} = {next}", guard.join(" && ")));
+        }
+        self.writer.line("od");
+        before.push(format!("!{waiting}"));
     }
 
     /// Handles what a peer told or took back.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Comparison;
-use crate::backend::c::said::{TURNS, asked_name, asked_types, noticed, ring_field, told_name};
+use crate::backend::c::said::{asked_name, asked_types, ring_field, told_name, turns};
 use crate::backend::c::state::{
     Ring, Slot, belief_value, counters, deferred_ring, external_name, handler_name, held,
     inbox_ring, limited_types, limits, pending, slot_value,
@@ -199,13 +199,12 @@ impl Comparison<'_> {
             return;
         }
         relation.number("who it is", "me", &number("me"));
-        let kinds = [!program.asked.is_empty(), noticed(program).next().is_some()];
-        for (turn, is_there) in TURNS.into_iter().zip(kinds) {
-            if is_there {
-                relation.number("whose turn it is", turn, &number(turn));
-            } else {
-                _ = writeln!(relation.read, "    to->{turn} = 0;");
-            }
+        let turns = turns(program);
+        for turn in &turns {
+            relation.number("whose turn it is", turn, &number(turn));
+        }
+        for turn in plain::TURNS.iter().filter(|turn| !turns.iter().any(|known| known == *turn)) {
+            _ = writeln!(relation.read, "    to->{turn} = 0;");
         }
         for (index, asked) in program.asked.iter().enumerate() {
             let name = asked_name(program, asked);

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use super::{Builder, occupied};
 use crate::backend::c::events::{event_name, no_event};
-use crate::backend::c::messages::waits;
 use crate::backend::c::said::{ring_field, ring_parts};
 use crate::backend::c::state::{
     Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held, pending,
     perceived, queued, rings,
 };
+use crate::backend::c::turns::waits;
 use crate::configuration::{Cause, Formula, Property};
 use crate::program::{Belief, Value};
 use crate::types::TypeKind;
@@ -180,6 +180,10 @@ impl Builder<'_> {
                 for external in self.program.external.iter().filter(|e| e.preemptive) {
                     let flag = pending(Slot::Preemptive, &external_name(external));
                     out.push(format!("((due_{name} == 0U) || !self->{flag})"));
+                }
+                for asked in self.program.asked.iter().filter(|asked| asked.preemptive) {
+                    let count = ring_field(self.program, asked, "count");
+                    out.push(format!("((due_{name} == 0U) || (self->{count} == 0U))"));
                 }
             }
             Formula::OnlyAfter { event, .. } => {
