@@ -54,6 +54,7 @@
      . font-lock-builtin-face)
     ("\\_<\\(all\\)\\s-+[a-zA-Z_][a-zA-Z0-9_]*\\s-+\\(but\\)\\_>" (1 font-lock-builtin-face) (2 font-lock-builtin-face))
     ("\\_<\\(tell\\|achieve\\|from\\)\\s-+[a-zA-Z_]" 1 font-lock-builtin-face)
+    ("\\[\\s-*\\(source\\)\\s-*(" 1 font-lock-builtin-face)
     ("#include" . font-lock-preprocessor-face)
     ("[+-]!?\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)
     (,(regexp-opt '("void" "bool" "int" "short" "long" "float" "double" "signed" "unsigned" "char" "const") 'symbols)

@@ -62,6 +62,15 @@ pub(crate) struct Told {
     pub(crate) removed: Option<HandlerId>,
 }
 
+/// What a peer says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Said {
+    /// An index into [`Program::asked`].
+    Asked(usize),
+    /// An index into [`Program::told`].
+    Told(usize),
+}
+
 /// A goal that one peer asks for: those that wait are served in their order.
 #[derive(Debug)]
 pub(crate) struct Asked {
@@ -521,9 +530,22 @@ impl Program {
     /// The number of an event that the environment can raise, and the event.
     pub(crate) fn raised(&self, event: &ExternalTrigger) -> Option<(usize, &External)> {
         self.external.iter().enumerate().find(|(_, external)| {
-            (external.operator, external.kind, &external.name)
-                == (event.operator, event.kind, &event.name.text)
+            event.source.is_none()
+                && (external.operator, external.kind, &external.name)
+                    == (event.operator, event.kind, &event.name.text)
         })
+    }
+
+    /// What a peer says to cause this event of a property.
+    pub(crate) fn said(&self, event: &ExternalTrigger) -> Option<Said> {
+        let sender = self.configuration.peer(&event.source.as_ref()?.text)?;
+        let (name, is_goal) = (&event.name.text, event.kind == TriggerKind::Achieve);
+        let asked = self.asked.iter();
+        let mut asked = asked.map(|asked| is_goal && (asked.sender, &asked.name) == (sender, name));
+        let told = self.told.iter();
+        let mut told = told.map(|told| !is_goal && (told.sender, &told.name) == (sender, name));
+        let asked = asked.position(|is_it| is_it).map(Said::Asked);
+        asked.or_else(|| told.position(|is_it| is_it).map(Said::Told))
     }
 
     /// Goals that pre-empt if a peer asks for them, by priority.

@@ -311,6 +311,17 @@ fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
             }
         }
         "settables" | "perceived" | "triggerables" | "preemptive" => beliefs(items),
+        // Behind the colon, where no requirements stand.
+        "properties"
+            if let Some(opened) =
+                entry.split_once(':').and_then(|(_, formula)| annotation(formula)) =>
+        {
+            if opened.contains('(') {
+                items.peers(configuration);
+            } else {
+                items.add("source", CompletionItemKind::Keyword, "source(peer)");
+            }
+        }
         "properties" if entry.contains('(') => {
             actions(items);
             beliefs(items);
@@ -383,6 +394,8 @@ mod tests {
         };
         assert_eq!(offered("messages { te"), "tell achieve go low");
         assert_eq!(offered("messages { tell low from "), "from any leader scout");
+        assert_eq!(offered("properties { p [R-1]: within(1, +low["), "source");
+        assert_eq!(offered("properties { p: within(1, +low[source(s"), "leader scout");
     }
 
     #[test]

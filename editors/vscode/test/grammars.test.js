@@ -153,6 +153,9 @@ test("peers and messages have their scopes", async () => {
   }
   assert.equal(scope("at"), "entity.name.function");
   assert.equal(scope("4"), "constant.numeric");
+  const property = await tokens(CONFIGURATION, "properties { p: within(2, +!go[source(scout)], act); };");
+  const annotation = property.find((token) => token.text === "source");
+  assert.equal(annotation.scope, "keyword.other.annotation.agentspeak-configuration");
 });
 
 test("what is no AgentSpeak is marked", async () => {

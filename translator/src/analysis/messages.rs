@@ -12,12 +12,12 @@ use super::declarations::not_a_peer;
 use super::scope::Scope;
 use super::values::Resolved;
 use crate::code::Code;
-use crate::configuration::{Cause, Configuration, Formula as Property, sending};
+use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula as Property, sending};
 use crate::program::{
     Alternatives, Asked, BeliefId, Condition, Pattern, Step, Told, Value, peer_constant,
 };
 use crate::syntax::ast::{
-    Agent, Atom, Expression, Formula, Operator, Performative, Relation, TriggerKind,
+    Agent, Atom, Expression, Formula, Name, Operator, Performative, Relation, TriggerKind,
 };
 use crate::types::CType;
 
@@ -114,6 +114,7 @@ impl Analysis<'_> {
             }
         }
         self.check_names();
+        self.caused();
         for message in self.configuration.messages.clone() {
             let name = &message.name.text;
             let handler =
@@ -143,6 +144,49 @@ impl Analysis<'_> {
             }
         }
         (told, asked)
+    }
+
+    /// Checks the events of peers in properties.
+    fn caused(&mut self) {
+        let properties = self.configuration.properties.clone();
+        for event in properties.iter().flat_map(|property| property.formula.events()) {
+            let Some(source) = &event.source else { continue };
+            let checked = self.cause(event, source);
+            self.findings.configuration.extend(checked.err());
+        }
+    }
+
+    /// Checks that a peer can cause an event.
+    fn cause(&self, event: &ExternalTrigger, source: &Name) -> Resolved<()> {
+        let name = &event.name.text;
+        let performative = match event.kind {
+            TriggerKind::Achieve => Performative::Achieve,
+            TriggerKind::Belief | TriggerKind::Test => Performative::Tell,
+        };
+        let Some(message) = self.configuration.message(performative, name) else {
+            return Err(no_source(name, event.name.span.clone()));
+        };
+        match self.configuration.peer(&source.text) {
+            None => {
+                return Err(Code::NotDeclared
+                    .at(format!("`{}` is not a peer", source.text), source.span.clone())
+                    .help("write a name of the section `peers`; an event without source is the environment's"));
+            }
+            Some(number) if !message.senders.contains(&number) => {
+                return Err(never_sent(&source.text, performative, name, source.span.clone()));
+            }
+            Some(_) => {}
+        }
+        let is_goal = event.kind == TriggerKind::Achieve;
+        let has_plans = |operator| self.handler_id(operator, event.kind, name).is_some();
+        if has_plans(Operator::Add) || !is_goal && has_plans(Operator::Delete) {
+            return Ok(());
+        }
+        let wanted =
+            if is_goal { format!("`+!{name}`") } else { format!("`+{name}` or `-{name}`") };
+        Err(Code::MissingPlan
+            .at(format!("no plan for {wanted}"), event.span.clone())
+            .help("without plans, what a peer says is no event"))
     }
 
     /// Names of C that only agents with peers have.
@@ -257,10 +301,7 @@ impl Analysis<'_> {
         match self.named_source(atom) {
             None => Err(not_a_peer(&format!("`{}`", atom.name.text), atom.span.clone())),
             Some(Source::Peer(number)) if !senders.contains(&number) => {
-                let verb = if performative == Performative::Tell { "tells" } else { "asks for" };
-                Err(Code::NeverSent
-                    .at(format!("`{}` never {verb} `{name}`", atom.name.text), atom.span.clone())
-                    .help("the section `messages` names who may; what is one's own has the source `self`"))
+                Err(never_sent(&atom.name.text, performative, name, atom.span.clone()))
             }
             Some(_) => Ok(()),
         }
@@ -463,6 +504,18 @@ pub(super) fn check_peers_differ(left: &Value, right: &Value, span: &Span) -> Re
         }
         _ => Ok(()),
     }
+}
+
+fn never_sent(
+    peer: &str,
+    performative: Performative,
+    name: &str,
+    span: Span,
+) -> diagnostic::Diagnostic {
+    let verb = if performative == Performative::Tell { "tells" } else { "asks for" };
+    Code::NeverSent
+        .at(format!("`{peer}` never {verb} `{name}`"), span)
+        .help("the section `messages` names who may; what is one's own has the source `self`")
 }
 
 pub(super) fn no_source(name: &str, span: Span) -> diagnostic::Diagnostic {

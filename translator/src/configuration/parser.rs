@@ -196,7 +196,7 @@ impl<'a> Parser<'a> {
                 .at("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
         }
-        Ok(ExternalTrigger { operator, kind, name, span })
+        Ok(ExternalTrigger { operator, kind, name, source: None, span })
     }
 
     /// `#include <file>` or `#include "file"`, one after the other.

@@ -37,6 +37,16 @@ impl Mail {
         self.urgent_turns.clear();
     }
 
+    pub(super) fn is_asked(&self, said: &Said) -> bool {
+        self.asked.get(said).is_some_and(|waiting| !waiting.is_empty())
+    }
+
+    /// Whether a change waits, and what was told is believed then or not.
+    pub(super) fn has_changed(&self, said: &Said, believed: bool) -> bool {
+        self.changed.contains(said)
+            && self.told.get(said).is_some_and(|(held, _)| *held == believed)
+    }
+
     /// What is believed.
     pub(super) fn told(&self) -> impl Iterator<Item = (&str, usize, &[Value])> {
         let held = self.told.iter().filter(|(_, (held, _))| *held);
@@ -75,9 +85,7 @@ impl Interpreter {
         let (room, said) = (message.room, (name.to_owned(), from));
         match performative {
             Performative::Tell => {
-                let same = self.mail.told.get(&said);
-                let same = same.is_some_and(|(held, old)| *held && Value::all_equal(old, &values));
-                if !same {
+                if self.is_news(from, performative, name, &values) {
                     self.mail.changed.insert(said.clone());
                 }
                 self.mail.told.insert(said, (true, values));
@@ -100,6 +108,23 @@ impl Interpreter {
             Performative::Unachieve => _ = self.mail.asked.remove(&said),
         }
         true
+    }
+
+    /// Whether a peer that says this, if that is accepted, asks for something or changes what is believed.
+    pub fn is_news(
+        &self,
+        from: usize,
+        performative: Performative,
+        name: &str,
+        values: &[Value],
+    ) -> bool {
+        let told = self.mail.told.get(&(name.to_owned(), from)).filter(|(held, _)| *held);
+        match performative {
+            Performative::Tell => !told.is_some_and(|(_, old)| Value::all_equal(old, values)),
+            Performative::Untell => told.is_some(),
+            Performative::Achieve => true,
+            Performative::Unachieve => false,
+        }
     }
 
     /// The values of an event with its source, if its plans are told; the agent or its environment has caused it.

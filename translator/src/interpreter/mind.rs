@@ -29,6 +29,22 @@ impl Interpreter {
         external.chain(&self.preemptive).any(|event| is_this(&event.key))
     }
 
+    /// Whether an event that this peer has caused is pending.
+    pub fn is_waiting_from(
+        &self,
+        peer: usize,
+        operator: Operator,
+        kind: TriggerKind,
+        name: &str,
+    ) -> bool {
+        let said = (name.to_owned(), peer);
+        match kind {
+            TriggerKind::Achieve => self.mail.is_asked(&said),
+            TriggerKind::Belief => self.mail.has_changed(&said, operator == Operator::Add),
+            TriggerKind::Test => false,
+        }
+    }
+
     /// The pending events, each with its cause, in the order of service.
     pub fn waiting(&self) -> Vec<String> {
         let mut waiting = Vec::new();

@@ -233,6 +233,10 @@ pub fn in_configuration<'a>(
         for name in promised(&property.formula) {
             at(name, counted(name), Usage::Listed);
         }
+        let events = property.formula.events().into_iter();
+        for peer in events.filter_map(|event| event.source.as_ref()) {
+            at(peer, Meaning::Declared, Usage::Listed);
+        }
     }
 }
 

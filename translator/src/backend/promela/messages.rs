@@ -2,7 +2,9 @@
 
 use super::logic::not;
 use super::{Emission, Waiting};
-use crate::program::{Asked, Told};
+use crate::configuration::ExternalTrigger;
+use crate::program::{Asked, Said, Told};
+use crate::syntax::ast::Operator;
 
 /// A kind of messages that wait: those of one sender are served in their order, senders in turn.
 struct Kind {
@@ -61,9 +63,12 @@ impl Emission<'_> {
     pub(super) fn say_something(&mut self) {
         for (index, asked) in self.program.asked.iter().enumerate() {
             self.writer.line(format!(":: asked_{index} < {} -> asked_{index}++;", asked.room));
+            self.on_said(Said::Asked(index), Operator::Add);
             self.say(&format!("asks {index}"));
             self.writer.line("goto finished");
-            self.writer.line(format!(":: asked_{index} > 0 -> asked_{index} = 0;"));
+            self.writer.line(format!(":: asked_{index} > 0 ->"));
+            self.before_taking_back(Said::Asked(index), Operator::Add);
+            self.writer.line(format!("asked_{index} = 0;"));
             self.say(&format!("unasks {index}"));
             self.writer.line("goto finished");
         }
@@ -72,10 +77,13 @@ impl Emission<'_> {
             let noticed = Self::is_noticed(told);
             let guard = if noticed { "true".to_owned() } else { not(&held) };
             self.writer.line(format!(":: {guard} ->"));
+            let said = Said::Told(index);
             if noticed {
+                self.before_taking_back(said, Operator::Delete);
                 // The same value is not a change.
                 self.writer.line("if");
                 self.writer.line(format!(":: told_{index} = true"));
+                self.on_said(said, Operator::Add);
                 if !self.program.belief(told.belief).types.is_empty() {
                     self.writer.line(format!(":: {held}"));
                 }
@@ -86,11 +94,26 @@ impl Emission<'_> {
             self.writer.line("goto finished");
             self.writer.line(format!(":: {held} ->"));
             if noticed {
+                self.before_taking_back(said, Operator::Add);
                 self.writer.line(format!("told_{index} = true;"));
             }
             self.forget(told.belief);
+            self.on_said(said, Operator::Delete);
             self.say(&format!("untells {index}"));
             self.writer.line("goto finished");
+        }
+    }
+
+    /// Whether a peer has said what causes this event, and waits, as an expression.
+    pub(super) fn waits_to_be_heard(&self, event: &ExternalTrigger) -> String {
+        match self.program.said(event) {
+            Some(Said::Asked(index)) => format!("asked_{index} > 0"),
+            Some(Said::Told(index)) => {
+                let held = self.held(self.program.told[index].belief);
+                let held = if event.operator == Operator::Add { held } else { not(&held) };
+                format!("(told_{index} && {held})")
+            }
+            None => "false".to_owned(),
         }
     }
 

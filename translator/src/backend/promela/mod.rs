@@ -269,7 +269,7 @@ impl Emission<'_> {
         match self.program.raised(event) {
             Some((index, external)) if external.preemptive => format!("preempts_{index}"),
             Some((index, _)) => format!("inbox??[{}]", self.number(Waiting::External(index))),
-            None => "false".to_owned(),
+            None => self.waits_to_be_heard(event),
         }
     }
 }
