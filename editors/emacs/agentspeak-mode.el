@@ -34,7 +34,7 @@
   '(("@\\s-*\\([a-z]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-constant-face)
     ("\\_<\\(?:not\\|mod\\)\\_>" . font-lock-keyword-face)
     ("\\_<\\(?:true\\|false\\)\\_>" . font-lock-constant-face)
-    ("\\_<\\(req\\|deadline\\|source\\)\\s-*(" 1 font-lock-preprocessor-face)
+    ("\\_<\\(req\\|deadline\\|source\\|age\\)\\s-*(" 1 font-lock-preprocessor-face)
     ("\\.\\s-*\\(?:wait\\|send\\|broadcast\\|my_name\\)\\_>" . font-lock-keyword-face)
     ("<-" . font-lock-keyword-face)
     ("!\\s-*\\([a-z]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)

@@ -60,6 +60,8 @@ pub(crate) struct Told {
     pub(crate) added: Option<HandlerId>,
     /// Plans of `-b`.
     pub(crate) removed: Option<HandlerId>,
+    /// Whether a context asks for its age, so that the time is kept when it is told.
+    pub(crate) timed: bool,
 }
 
 /// What a peer says.
@@ -90,7 +92,7 @@ pub(crate) struct Asked {
 pub(crate) struct HandlerId(pub(crate) usize);
 
 /// Index into [`Program::beliefs`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct BeliefId(pub(crate) usize);
 
 /// Index into [`Plan::variables`].
@@ -294,6 +296,8 @@ pub(crate) enum Value {
     Constant(String, CType),
     /// The peer that the agent is.
     Me,
+    /// The time when a peer told a belief.
+    ToldAt(BeliefId),
     Call(Call),
     /// Sign change of a floating-point value; for integers it is a subtraction.
     Negate(Box<Self>),
@@ -350,7 +354,7 @@ impl Value {
     /// Whether evaluating it can fail.
     pub(crate) fn can_fail(&self) -> bool {
         match self {
-            Self::Variable(_) | Self::Constant(..) | Self::Me => false,
+            Self::Variable(_) | Self::Constant(..) | Self::Me | Self::ToldAt(_) => false,
             Self::Call(call) => call.arguments.iter().any(Self::can_fail),
             Self::Negate(operand) => operand.can_fail(),
             Self::Arithmetic(operation) => {
@@ -373,7 +377,7 @@ impl Value {
     /// Effects of the evaluation, in order.
     fn effects(&self, effects: &mut Vec<Effect>) {
         match self {
-            Self::Variable(_) | Self::Constant(..) | Self::Me => {}
+            Self::Variable(_) | Self::Constant(..) | Self::Me | Self::ToldAt(_) => {}
             Self::Call(call) => call.effects(effects),
             Self::Negate(operand) => operand.effects(effects),
             Self::Arithmetic(operation) => {
@@ -557,6 +561,11 @@ impl Program {
     /// Whether anything aborts the pending event.
     pub(crate) fn has_preemptive(&self) -> bool {
         self.external.iter().any(|external| external.preemptive) || self.urgent().next().is_some()
+    }
+
+    /// The clock, and the type of its times, if the time is kept when a peer tells this belief.
+    pub(crate) fn timing(&self, told: &Told) -> Option<&(BasicId, CType)> {
+        self.clock.as_ref().filter(|_| told.timed)
     }
 
     /// The constant of a peer in C.

@@ -138,8 +138,15 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
         if before.contains("<-") {
             return;
         }
+        let is_age =
+            annotation.strip_suffix('(').is_some_and(|word| word.trim_end().ends_with("age"));
         if annotation.is_empty() {
             items.add("source", CompletionItemKind::Keyword, "source(peer)");
+            items.add("age", CompletionItemKind::Keyword, "age(Milliseconds)");
+        } else if annotation.ends_with(',') {
+            items.add("age", CompletionItemKind::Keyword, "age(Milliseconds)");
+        } else if is_age {
+            items.variables(before);
         } else {
             items.variables(before);
             items.peers(configuration);
@@ -371,7 +378,9 @@ mod tests {
             types { go(void); };",
         );
         for (statement, expected) in [
-            ("+low[", "source"),
+            ("+low[", "source age"),
+            ("+!go : low[source(leader), ", "age"),
+            ("+!go(X) : low[source(leader), age(", "X"),
             ("+low[source(", "leader scout self"),
             ("+!go : low[source(l", "leader scout self"),
             ("+!go : low[source(P)] & P == ", "P leader scout go low not true false"),

@@ -109,6 +109,8 @@ impl Way {
                         None if name == "init" => values(&[CType::peer()])?,
                         None => values(parameters(configuration, &name))?,
                     };
+                    // The clock may be asked when a message arrives.
+                    step = Some(acts.len());
                     acts.push(Act { kind: Kind::Call, name, values });
                 }
                 STEPS => {

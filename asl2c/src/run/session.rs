@@ -223,10 +223,10 @@ impl Session {
         values: Vec<Value>,
         shown: &mut Vec<String>,
     ) {
-        let State { agent, monitors, .. } = &mut self.now;
+        let State { agent, world, monitors, .. } = &mut self.now;
         let before = agent.clone();
         let is_news = agent.is_news(sender, performative, about, &values);
-        if agent.receive(sender, performative, about, values) {
+        if agent.receive(sender, performative, about, values, world) {
             let said = (sender, performative, about, is_news);
             monitors.heard(said, &self.configuration, &before, agent);
         } else {

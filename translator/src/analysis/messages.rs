@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use diagnostic::Span;
 
 use super::Analysis;
+use super::age::no_age_of_events;
 use super::declarations::not_a_peer;
 use super::scope::Scope;
 use super::values::Resolved;
@@ -140,7 +141,8 @@ impl Analysis<'_> {
             let removed = handler(self, Operator::Delete, TriggerKind::Belief);
             for sender in &message.senders {
                 let belief = self.told_belief(name, *sender, &message.parameters);
-                told.push(Told { name: name.clone(), sender: *sender, belief, added, removed });
+                let (timed, name) = (self.timed.contains(&belief), name.clone());
+                told.push(Told { name, sender: *sender, belief, added, removed, timed });
             }
         }
         (told, asked)
@@ -266,6 +268,9 @@ impl Analysis<'_> {
         kind: TriggerKind,
         scope: &mut Scope,
     ) -> Option<Pattern> {
+        if let Some(error) = no_age_of_events(atom) {
+            self.error(error);
+        }
         let name = &atom.name.text;
         if !self.configuration.is_sourced(kind, name) {
             if let Some(source) = &atom.source {
@@ -328,6 +333,7 @@ impl Analysis<'_> {
         if let Some(source) = &atom.source {
             self.check_source(source, Performative::Tell, name)?;
         }
+        self.check_age(atom)?;
         let sources = self.sources(atom);
         if let [only] = sources.as_slice() {
             self.told_by(*only, atom, &types, scope, conjunction)?;
@@ -363,7 +369,9 @@ impl Analysis<'_> {
         let name = &atom.name.text;
         let message = self.configuration.message(Performative::Tell, name);
         let peers = message.into_iter().flat_map(|message| &message.senders);
-        let own = self.own.contains(name).then_some(Source::Own);
+        // What is one's own has no age.
+        let is_own = self.own.contains(name) && atom.age.is_none();
+        let own = is_own.then_some(Source::Own);
         let all = own.into_iter().chain(peers.map(|number| Source::Peer(*number)));
         let wanted = match atom.source.as_deref() {
             Some(Expression::Atom(source)) => self.named_source(source),
@@ -396,20 +404,22 @@ impl Analysis<'_> {
         let patterns = self.patterns(atom, types, scope)?;
         conjunction.push(Condition::Holds { belief, patterns });
         let found = source.value(&self.configuration);
-        let condition = match atom.source.as_deref() {
-            None | Some(Expression::Unnamed(_)) => return Ok(()),
+        match atom.source.as_deref() {
+            None | Some(Expression::Unnamed(_)) => {}
             Some(Expression::Variable(name)) if scope.lookup(&name.text).is_none() => {
-                Condition::Bind { variable: scope.bind(name, &CType::peer()), value: found }
+                let variable = scope.bind(name, &CType::peer());
+                conjunction.push(Condition::Bind { variable, value: found });
             }
             Some(wanted) => {
                 let wanted = self.value(wanted, &CType::peer(), scope)?;
-                if wanted == found {
-                    return Ok(());
+                if wanted != found {
+                    conjunction.push(equal(found, wanted));
                 }
-                equal(found, wanted)
             }
-        };
-        conjunction.push(condition);
+        }
+        if let Some(age) = &atom.age {
+            conjunction.extend(self.aged(belief, age, scope)?);
+        }
         Ok(())
     }
 

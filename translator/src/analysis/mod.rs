@@ -3,6 +3,7 @@
 //! The order: declarations, then the triggers and their recursion, then each plan. All errors of a file are
 //! reported in one run.
 
+mod age;
 mod conditions;
 pub(crate) mod constants;
 mod declarations;
@@ -74,6 +75,7 @@ pub(crate) fn analyse(
         configuration: configuration.clone(),
         own: HashSet::new(),
         searched: 0,
+        timed: HashSet::new(),
         clock,
         line_starts: std::iter::once(0)
             .chain(text.match_indices('\n').map(|(newline, _)| newline + 1))
@@ -168,6 +170,8 @@ struct Analysis<'a> {
     own: HashSet<String>,
     /// Ways to choose the sources of the context that is being resolved.
     searched: usize,
+    /// Beliefs of peers whose age is asked for.
+    timed: HashSet<BeliefId>,
     clock: Option<Clock>,
     /// Offset of each line.
     line_starts: Vec<usize>,

@@ -9,7 +9,7 @@ use crate::syntax::ast::{Atom, Expression, Operator, Performative, TriggerKind};
 use crate::types::CType;
 
 /// A belief or goal, and the peer that it comes from.
-type Said = (String, usize);
+pub(super) type Said = (String, usize);
 
 /// What peers have said.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) struct Mail {
     pub(super) me: usize,
     /// The last values of beliefs, and whether they are believed still.
     told: BTreeMap<Said, (bool, Vec<Value>)>,
+    /// When that was told, if the age is asked for anywhere.
+    told_at: BTreeMap<Said, Value>,
     /// Beliefs that have changed since that was noticed.
     changed: BTreeSet<Said>,
     asked: BTreeMap<Said, VecDeque<Vec<Value>>>,
@@ -73,6 +75,7 @@ impl Interpreter {
         performative: Performative,
         name: &str,
         values: Vec<Value>,
+        environment: &mut dyn Environment,
     ) -> bool {
         let Some(message) = self.configuration.message(performative, name) else { return false };
         if from == self.mail.me || !message.senders.contains(&from) {
@@ -87,6 +90,12 @@ impl Interpreter {
             Performative::Tell => {
                 if self.is_news(from, performative, name, &values) {
                     self.mail.changed.insert(said.clone());
+                }
+                if self.asks_age(&said) {
+                    let now = self
+                        .clock()
+                        .and_then(|(clock, ctype)| environment.call(&clock, &[], &ctype));
+                    self.mail.told_at.extend(now.map(|now| (said.clone(), now)));
                 }
                 self.mail.told.insert(said, (true, values));
             }
@@ -279,7 +288,9 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
         let name = &atom.name.text;
-        let own = self.beliefs.get(name).map(|values| (self.mail.me, values));
+        // What is one's own has no age.
+        let own = self.beliefs.get(name).filter(|_| atom.age.is_none());
+        let own = own.map(|values| (self.mail.me, values));
         let told = (0..self.configuration.peers.len()).filter_map(|sender| {
             let (held, values) = self.mail.told.get(&(name.clone(), sender))?;
             held.then_some((sender, values))
@@ -298,10 +309,14 @@ impl Interpreter {
                 for ((pattern, value), ctype) in atom.arguments.iter().zip(values).zip(&types) {
                     self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
                 }
-                match &atom.source {
-                    Some(source) => {
-                        let found = peer(sender);
-                        self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)
+                if let Some(source) = &atom.source {
+                    let found = peer(sender);
+                    self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)?;
+                }
+                match &atom.age {
+                    Some(wanted) => {
+                        let told_at = self.mail.told_at.get(&(name.clone(), sender));
+                        self.match_age(wanted, told_at, &mut theta, environment)
                     }
                     None => Some(()),
                 }

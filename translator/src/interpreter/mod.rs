@@ -4,6 +4,7 @@
 //! has its own detection of recursion. If both leave the same trace, the translation is right. It requires an
 //! agent that [`crate::translate`] accepts.
 
+mod age;
 mod evaluate;
 mod messages;
 mod mind;

@@ -141,9 +141,8 @@ pub fn in_plan<'a>(plan: &'a Plan, visit: &mut impl FnMut(Occurrence<'a>)) {
 fn in_atom<'a>(atom: &'a Atom, usage: Usage, visit: &mut impl FnMut(Occurrence<'a>)) {
     visit(Occurrence { name: &atom.name, meaning: Meaning::Declared, usage });
     atom.arguments.iter().for_each(|argument| in_expression(argument, visit));
-    if let Some(source) = &atom.source {
-        in_expression(source, visit);
-    }
+    let annotations = atom.source.iter().chain(&atom.age);
+    annotations.for_each(|annotation| in_expression(annotation, visit));
 }
 
 fn in_variable<'a>(name: &'a Name, visit: &mut impl FnMut(Occurrence<'a>)) {

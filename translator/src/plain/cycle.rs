@@ -432,7 +432,11 @@ fn constants(values: &[Value]) -> String {
     let texts = values.iter().map(|value| match value {
         Value::Constant(text, _) => text.as_str(),
         Value::Me => "plain.me",
-        Value::Variable(_) | Value::Call(_) | Value::Negate(_) | Value::Arithmetic(_) => {
+        Value::Variable(_)
+        | Value::ToldAt(_)
+        | Value::Call(_)
+        | Value::Negate(_)
+        | Value::Arithmetic(_) => {
             unreachable!("analysis lets only constants into initial beliefs and goals")
         }
     });

@@ -51,6 +51,11 @@ pub(super) fn state(program: &Program) -> String {
     for (index, _) in noticed(program) {
         _ = writeln!(text, "    bool told_{index};");
     }
+    for told in program.told.iter().filter(|told| told.timed) {
+        if let Some((_, time)) = &program.clock {
+            _ = writeln!(text, "    {} told_at_{};", time.name, program.belief(told.belief).name);
+        }
+    }
     text
 }
 
@@ -197,6 +202,10 @@ fn tell(text: &mut String, program: &Program, message: &Message) {
                 _ = writeln!(text, "        if (!{same}) plain.told_{index} = true;");
             }
             _ = writeln!(text, "        {place} = a{argument};");
+        }
+        if let Some((clock, _)) = program.clock.as_ref().filter(|_| told.timed) {
+            let name = &belief.name;
+            _ = writeln!(text, "        plain.told_at_{name} = plain_call_{}();", clock.0);
         }
         _ = writeln!(
             text,

@@ -209,6 +209,7 @@ fn constant_text(value: &Value) -> &str {
         Value::Constant(text, _) => text,
         Value::Variable(_)
         | Value::Me
+        | Value::ToldAt(_)
         | Value::Call(_)
         | Value::Negate(_)
         | Value::Arithmetic(_) => {

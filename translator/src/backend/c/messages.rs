@@ -10,7 +10,7 @@ use super::said::{
     told_name,
 };
 use super::spelling::conjunction;
-use super::state::{Slot, belief_value, held, pending, slot_value};
+use super::state::{Slot, belief_value, held, pending, slot_value, told_at};
 use crate::backend::writer::Writer;
 use crate::program::{Asked, Belief, Program, Told};
 use crate::syntax::ast::Performative;
@@ -27,6 +27,8 @@ pub(crate) fn received(program: &Program) -> Vec<Received> {
             types: message.said(performative),
             preempts: performative == Performative::Achieve
                 && program.urgent().any(|goal| goal == message.name.text),
+            asks_time: performative == Performative::Tell
+                && program.told.iter().any(|told| told.timed && told.name == message.name.text),
         })
         .collect()
 }
@@ -42,12 +44,17 @@ pub(crate) struct Received {
     pub(crate) types: Vec<CType>,
     /// Whether it aborts the pending event.
     pub(crate) preempts: bool,
+    /// Whether it calls the clock.
+    pub(crate) asks_time: bool,
 }
 
 impl Received {
     /// What it does.
     pub(crate) fn comment(&self) -> &'static str {
         match self.performative {
+            Performative::Tell if self.asks_time => {
+                "Believed at once; calls the clock. Returns whether this peer may tell it."
+            }
             Performative::Tell => "Believed at once. Returns whether this peer may tell it.",
             Performative::Untell => "Believed no more. Returns whether this peer may tell it.",
             Performative::Achieve if self.preempts => {
@@ -180,6 +187,11 @@ fn tell(writer: &mut Writer, program: &Program, names: &Names, helpers: &mut Hel
     }
     for index in 0..belief.types.len() {
         writer.line(format!("{} = {};", field(index), argument(index + 1)));
+    }
+    if let Some((clock, _)) = program.timing(told) {
+        let clock = names.action(program.basic(*clock));
+        let (place, arguments) = (told_at(&belief.name), names.action_arguments(&[]));
+        writer.line(format!("{} = {clock}({arguments});", names.field(&place)));
     }
     writer.line(format!("{held} = true;"));
     writer.line("accepted = true;");

@@ -5,7 +5,7 @@ use super::said::{
     told_name,
 };
 use crate::configuration::Instance;
-use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
+use crate::program::{BasicId, Belief, External, HandlerId, Program, Told, trigger_name};
 use crate::syntax::ast::TriggerKind;
 use crate::types::CType;
 
@@ -45,6 +45,9 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
         for (index, ctype) in belief.types.iter().enumerate() {
             let name = belief_value(&belief.name, index);
             layout.field(name, FieldType::Value(ctype.clone()), None);
+        }
+        if let Some((_, time)) = timing(program, belief) {
+            layout.field(told_at(&belief.name), FieldType::Value(time.clone()), None);
         }
     }
     if program.has_peers() {
@@ -320,6 +323,17 @@ pub(super) fn held(belief: &str) -> String {
 /// An argument of a belief.
 pub(super) fn belief_value(belief: &str, index: usize) -> String {
     format!("belief_{belief}_{}", index + 1)
+}
+
+/// The time when a belief was told.
+pub(super) fn told_at(belief: &str) -> String {
+    format!("belief_{belief}_told_at")
+}
+
+/// The clock, and the type of its times, if the time is kept when the belief is told.
+pub(super) fn timing<'a>(program: &'a Program, belief: &Belief) -> Option<&'a (BasicId, CType)> {
+    let is_this = |told: &&Told| std::ptr::eq(program.belief(told.belief), belief);
+    program.told.iter().find(is_this).and_then(|told| program.timing(told))
 }
 
 /// An argument of a pending event.

@@ -6,7 +6,7 @@ use super::Comparison;
 use crate::backend::c::said::{asked_name, asked_types, ring_field, told_name, turns};
 use crate::backend::c::state::{
     Ring, Slot, belief_value, counters, deferred_ring, external_name, handler_name, held,
-    inbox_ring, limited_types, limits, pending, slot_value,
+    inbox_ring, limited_types, limits, pending, slot_value, timing, told_at,
 };
 use crate::plain;
 use crate::program::HandlerId;
@@ -118,6 +118,15 @@ impl Comparison<'_> {
                     ctype: Some(ctype.clone()),
                 };
                 relation.value(element, &self.names.field(&belief_value(name, index)));
+            }
+            if let Some((_, time)) = timing(self.program, belief) {
+                let element = Element {
+                    name: format!("when {name} was told"),
+                    place: format!("told_at_{name}"),
+                    matters: format!("plain.{place}"),
+                    ctype: Some(time.clone()),
+                };
+                relation.value(element, &self.names.field(&told_at(name)));
             }
             if let Some(handler) = belief.perceived {
                 let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
