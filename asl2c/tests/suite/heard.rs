@@ -94,5 +94,5 @@ fn what_peers_say_is_verified() {
 fn what_peers_say_is_proved() {
     let Some(cbmc) = cbmc() else { return };
     let cbmc = cbmc.to_string_lossy().into_owned();
-    assert_eq!(judged(folder().path(), &["prove", "--cbmc", &cbmc]), expected());
+    assert_eq!(judged(folder().path(), &["prove", "--time", "20", "--cbmc", &cbmc]), expected());
 }
