@@ -96,3 +96,25 @@ fn what_peers_say_is_proved() {
     let cbmc = cbmc.to_string_lossy().into_owned();
     assert_eq!(judged(folder().path(), &["prove", "--time", "20", "--cbmc", &cbmc]), expected());
 }
+
+/// What an urgent goal of a peer takes back does not go on.
+#[test]
+fn what_is_taken_back_is_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+        basics { void on(void); void off(void); };
+        peers { leader, wingman }; messages { achieve land from any; };
+        types { go(void); more(void); };
+        triggerables { +!go; }; preemptive { +!land; };
+        properties { over: only_after(on, +!go, until off); };\n";
+    std::fs::write(folder.path().join("a.conf"), configuration).unwrap();
+    let agent = "+!go <- on; !more.\n+!more <- on; !more.\n+!land <- off.\n";
+    std::fs::write(folder.path().join("a.asl"), agent).unwrap();
+    if Command::new("spin").arg("-V").output().is_err() {
+        return skip("spin");
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    let output = command.args(["verify", "a.conf"]).current_dir(folder.path()).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+}
