@@ -16,7 +16,7 @@ pub(super) enum Statement {
     Belief(Atom),
     /// The initial goal, and its place with the `!`.
     Goal(Atom, Span),
-    Plan(Plan),
+    Plan(Box<Plan>),
     /// Text with an error.
     Unknown,
 }
@@ -79,7 +79,9 @@ impl<'a> Parser<'a> {
 
     fn statement(&mut self) -> Parsed<Statement> {
         match self.peek() {
-            TokenKind::Plus | TokenKind::Minus | TokenKind::At => Ok(Statement::Plan(self.plan()?)),
+            TokenKind::Plus | TokenKind::Minus | TokenKind::At => {
+                Ok(Statement::Plan(Box::new(self.plan()?)))
+            }
             TokenKind::Bang => {
                 let start = self.next().span.start;
                 let goal = self.atom(0)?;
