@@ -1,5 +1,6 @@
 //! Properties of what peers say: `verify` and `prove` judge them alike, and a run shows what does not hold.
 
+use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
@@ -66,10 +67,9 @@ fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut configuration = CONFIGURATION.to_owned();
     for (number, (formula, _)) in PROPERTIES.iter().enumerate() {
-        configuration += &format!(
-            "p{number}: {};\n",
-            formula.replace("URGENT", URGENT).replace("WAITING", WAITING)
-        );
+        let formula = formula.replace("URGENT", URGENT).replace("WAITING", WAITING);
+        // Writing to a string cannot fail.
+        _ = writeln!(configuration, "p{number}: {formula};");
     }
     configuration += "};\n";
     std::fs::write(folder.path().join("a.conf"), configuration).unwrap();
