@@ -73,6 +73,7 @@ codes! {
     Error MissingPlan "missing-plan" "a goal or trigger without a plan, or a failure plan that can never run";
     Error Recursion "recursion" "a recursive goal that is not the last formula of its plan";
     Error NoClock "no-clock" "`.wait` or a deadline in an agent without a clock";
+    Error NoAge "no-age" "an age that nobody knows: without a clock, of one's own belief, or in a trigger";
     Error NotAClock "not-a-clock" "a clock that takes arguments, or is too narrow";
     Error IdleDeadline "idle-deadline" "a deadline of a goal that is achieved within one step";
     Error WaitInTestGoal "wait-in-test-goal" "`.wait` in the plan of a test goal";

@@ -188,7 +188,7 @@ pub(crate) fn moves(system: &System, replay: &str) -> Vec<Move> {
                 let (operator, kind) = (external.operator, external.kind);
                 moves.push(Move::Raise(
                     member,
-                    ExternalTrigger { operator, kind, name, span: 0..0 },
+                    ExternalTrigger { operator, kind, name, source: None, span: 0..0 },
                 ));
             }
             ("set", Some(belief)) => {

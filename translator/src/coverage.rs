@@ -99,7 +99,7 @@ impl Origins {
             Value::Constant(text, _) => Some(text.clone()),
             Value::Me => Some("me".to_owned()),
             Value::Negate(operand) => Some(format!("-({})", self.text(operand)?)),
-            Value::Arithmetic(_) | Value::Call(_) => None,
+            Value::ToldAt(_) | Value::Arithmetic(_) | Value::Call(_) => None,
         }
     }
 }

@@ -60,6 +60,17 @@ pub(crate) struct Told {
     pub(crate) added: Option<HandlerId>,
     /// Plans of `-b`.
     pub(crate) removed: Option<HandlerId>,
+    /// Whether a context asks for its age, so that the time is kept when it is told.
+    pub(crate) timed: bool,
+}
+
+/// What a peer says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Said {
+    /// An index into [`Program::asked`].
+    Asked(usize),
+    /// An index into [`Program::told`].
+    Told(usize),
 }
 
 /// A goal that one peer asks for: those that wait are served in their order.
@@ -72,6 +83,8 @@ pub(crate) struct Asked {
     pub(crate) handler: HandlerId,
     /// How many may wait.
     pub(crate) room: usize,
+    /// Whether it aborts the pending event.
+    pub(crate) preemptive: bool,
 }
 
 /// Index into [`Program::handlers`].
@@ -79,7 +92,7 @@ pub(crate) struct Asked {
 pub(crate) struct HandlerId(pub(crate) usize);
 
 /// Index into [`Program::beliefs`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct BeliefId(pub(crate) usize);
 
 /// Index into [`Plan::variables`].
@@ -283,6 +296,8 @@ pub(crate) enum Value {
     Constant(String, CType),
     /// The peer that the agent is.
     Me,
+    /// The time when a peer told a belief.
+    ToldAt(BeliefId),
     Call(Call),
     /// Sign change of a floating-point value; for integers it is a subtraction.
     Negate(Box<Self>),
@@ -339,7 +354,7 @@ impl Value {
     /// Whether evaluating it can fail.
     pub(crate) fn can_fail(&self) -> bool {
         match self {
-            Self::Variable(_) | Self::Constant(..) | Self::Me => false,
+            Self::Variable(_) | Self::Constant(..) | Self::Me | Self::ToldAt(_) => false,
             Self::Call(call) => call.arguments.iter().any(Self::can_fail),
             Self::Negate(operand) => operand.can_fail(),
             Self::Arithmetic(operation) => {
@@ -362,7 +377,7 @@ impl Value {
     /// Effects of the evaluation, in order.
     fn effects(&self, effects: &mut Vec<Effect>) {
         match self {
-            Self::Variable(_) | Self::Constant(..) | Self::Me => {}
+            Self::Variable(_) | Self::Constant(..) | Self::Me | Self::ToldAt(_) => {}
             Self::Call(call) => call.effects(effects),
             Self::Negate(operand) => operand.effects(effects),
             Self::Arithmetic(operation) => {
@@ -519,9 +534,38 @@ impl Program {
     /// The number of an event that the environment can raise, and the event.
     pub(crate) fn raised(&self, event: &ExternalTrigger) -> Option<(usize, &External)> {
         self.external.iter().enumerate().find(|(_, external)| {
-            (external.operator, external.kind, &external.name)
-                == (event.operator, event.kind, &event.name.text)
+            event.source.is_none()
+                && (external.operator, external.kind, &external.name)
+                    == (event.operator, event.kind, &event.name.text)
         })
+    }
+
+    /// What a peer says to cause this event of a property.
+    pub(crate) fn said(&self, event: &ExternalTrigger) -> Option<Said> {
+        let sender = self.configuration.peer(&event.source.as_ref()?.text)?;
+        let (name, is_goal) = (&event.name.text, event.kind == TriggerKind::Achieve);
+        let asked = self.asked.iter();
+        let mut asked = asked.map(|asked| is_goal && (asked.sender, &asked.name) == (sender, name));
+        let told = self.told.iter();
+        let mut told = told.map(|told| !is_goal && (told.sender, &told.name) == (sender, name));
+        let asked = asked.position(|is_it| is_it).map(Said::Asked);
+        asked.or_else(|| told.position(|is_it| is_it).map(Said::Told))
+    }
+
+    /// Goals that pre-empt if a peer asks for them, by priority.
+    pub(crate) fn urgent(&self) -> impl Iterator<Item = &str> {
+        let names = self.configuration.preemptive.iter().map(|trigger| trigger.name.text.as_str());
+        names.filter(|name| self.asked.iter().any(|asked| asked.preemptive && asked.name == *name))
+    }
+
+    /// Whether anything aborts the pending event.
+    pub(crate) fn has_preemptive(&self) -> bool {
+        self.external.iter().any(|external| external.preemptive) || self.urgent().next().is_some()
+    }
+
+    /// The clock, and the type of its times, if the time is kept when a peer tells this belief.
+    pub(crate) fn timing(&self, told: &Told) -> Option<&(BasicId, CType)> {
+        self.clock.as_ref().filter(|_| told.timed)
     }
 
     /// The constant of a peer in C.

@@ -159,11 +159,14 @@ impl<'a> Execution<'a> {
                     Some((Value::Integer(sender), said)) => (usize::try_from(*sender), said),
                     _ => return true,
                 };
-                let accepted = sender.is_ok_and(|sender| {
-                    self.agent.receive(sender, *performative, about, said.to_vec())
-                });
+                // The clock may be called before the answer is known.
                 let call = format!("receive_{}_{about}", performative.name());
-                _ = writeln!(self.world.trace, "> {call}({values_text}) = {accepted}");
+                _ = write!(self.world.trace, "> {call}({values_text}) = ");
+                let accepted = sender.is_ok_and(|sender| {
+                    let said = said.to_vec();
+                    self.agent.receive(sender, *performative, about, said, &mut self.world)
+                });
+                _ = writeln!(self.world.trace, "{accepted}");
             }
             Act::Be(peer) => {
                 self.world.trace += "> init()\n";

@@ -138,8 +138,15 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
         if before.contains("<-") {
             return;
         }
+        let is_age =
+            annotation.strip_suffix('(').is_some_and(|word| word.trim_end().ends_with("age"));
         if annotation.is_empty() {
             items.add("source", CompletionItemKind::Keyword, "source(peer)");
+            items.add("age", CompletionItemKind::Keyword, "age(Milliseconds)");
+        } else if annotation.ends_with(',') {
+            items.add("age", CompletionItemKind::Keyword, "age(Milliseconds)");
+        } else if is_age {
+            items.variables(before);
         } else {
             items.variables(before);
             items.peers(configuration);
@@ -311,6 +318,17 @@ fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
             }
         }
         "settables" | "perceived" | "triggerables" | "preemptive" => beliefs(items),
+        // Behind the colon, where no requirements stand.
+        "properties"
+            if let Some(opened) =
+                entry.split_once(':').and_then(|(_, formula)| annotation(formula)) =>
+        {
+            if opened.contains('(') {
+                items.peers(configuration);
+            } else {
+                items.add("source", CompletionItemKind::Keyword, "source(peer)");
+            }
+        }
         "properties" if entry.contains('(') => {
             actions(items);
             beliefs(items);
@@ -360,7 +378,9 @@ mod tests {
             types { go(void); };",
         );
         for (statement, expected) in [
-            ("+low[", "source"),
+            ("+low[", "source age"),
+            ("+!go : low[source(leader), ", "age"),
+            ("+!go(X) : low[source(leader), age(", "X"),
             ("+low[source(", "leader scout self"),
             ("+!go : low[source(l", "leader scout self"),
             ("+!go : low[source(P)] & P == ", "P leader scout go low not true false"),
@@ -383,6 +403,8 @@ mod tests {
         };
         assert_eq!(offered("messages { te"), "tell achieve go low");
         assert_eq!(offered("messages { tell low from "), "from any leader scout");
+        assert_eq!(offered("properties { p [R-1]: within(1, +low["), "source");
+        assert_eq!(offered("properties { p: within(1, +low[source(s"), "leader scout");
     }
 
     #[test]

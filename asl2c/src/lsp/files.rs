@@ -30,7 +30,7 @@ pub(super) struct Open {
 
 #[derive(Debug)]
 pub(super) enum Content {
-    Agent(Document),
+    Agent(Box<Document>),
     Configuration(Box<ConfigurationText>),
 }
 
@@ -55,7 +55,7 @@ impl File {
     fn new(is_agent: bool, text: String, open: Option<Open>) -> Self {
         let lines = Lines::of(&text);
         let content = if is_agent {
-            Content::Agent(Document::new(text))
+            Content::Agent(Box::new(Document::new(text)))
         } else {
             Content::Configuration(Box::new(ConfigurationText::new(text)))
         };

@@ -106,8 +106,11 @@ impl Way {
                     let mut received = configuration.receiving().into_iter();
                     let values = match received.find(|(function, ..)| *function == name) {
                         Some((_, performative, message)) => values(&message.said(performative))?,
+                        None if name == "init" => values(&[CType::peer()])?,
                         None => values(parameters(configuration, &name))?,
                     };
+                    // The clock may be asked when a message arrives.
+                    step = Some(acts.len());
                     acts.push(Act { kind: Kind::Call, name, values });
                 }
                 STEPS => {

@@ -6,7 +6,7 @@ use translator::configuration::{
     CallBound, Cause, Comparison, Configuration, ExternalTrigger, Formula, Operand, Property,
 };
 use translator::interpreter::{Interpreter, Value};
-use translator::syntax::ast::Name;
+use translator::syntax::ast::{Name, Operator, Performative, TriggerKind};
 
 use super::values::parse;
 
@@ -45,12 +45,45 @@ impl Monitors {
         }
     }
 
-    /// The environment has raised an event that was accepted.
+    /// A peer has said something, which was accepted, and these are the agents before and after it.
+    pub(crate) fn heard(
+        &mut self,
+        (sender, performative, about, is_news): (usize, Performative, &str, bool),
+        configuration: &Configuration,
+        before: &Interpreter,
+        agent: &Interpreter,
+    ) {
+        // What is taken back before it is heard need not be answered.
+        for (state, property) in self.states.iter_mut().zip(&configuration.properties) {
+            if let Formula::Within { cause: Cause::Event(cause), .. } = &property.formula
+                && cause.source.is_some()
+                && waits(cause, before, configuration)
+                && !waits(cause, agent, configuration)
+            {
+                state.due = 0;
+            }
+        }
+        let (operator, kind) = match performative {
+            Performative::Tell => (Operator::Add, TriggerKind::Belief),
+            Performative::Untell => (Operator::Delete, TriggerKind::Belief),
+            Performative::Achieve | Performative::Unachieve => {
+                (Operator::Add, TriggerKind::Achieve)
+            }
+        };
+        if let Some(peer) = configuration.peers.get(sender).filter(|_| is_news) {
+            let name = Name { text: about.to_owned(), span: 0..0 };
+            let source = Some(peer.clone());
+            let event = ExternalTrigger { operator, kind, name, source, span: 0..0 };
+            self.raised(&event, configuration, agent);
+        }
+    }
+
+    /// The environment has raised an event that was accepted, or a peer has caused one.
     pub(crate) fn raised(
         &mut self,
         event: &ExternalTrigger,
         configuration: &Configuration,
-        before: &Interpreter,
+        agent: &Interpreter,
     ) {
         for (state, property) in self.states.iter_mut().zip(&configuration.properties) {
             match &property.formula {
@@ -60,7 +93,7 @@ impl Monitors {
                 Formula::Within { steps, cause: Cause::Event(cause), unless, .. }
                     if is_same(cause, event) =>
                 {
-                    state.begin(*steps, unless, before);
+                    state.begin(*steps, unless, agent, configuration);
                 }
                 Formula::OnlyAfter { event: allows, .. } if is_same(allows, event) => {
                     state.allowed = true;
@@ -77,7 +110,7 @@ impl Monitors {
                 &property.formula
             {
                 if compares(comparison, configuration, agent) {
-                    state.begin(*steps, unless, agent);
+                    state.begin(*steps, unless, agent, configuration);
                 } else {
                     state.due = 0;
                 }
@@ -112,13 +145,13 @@ impl Monitors {
                     if let Cause::Action(cause) = cause
                         && count(cause) > 0
                     {
-                        state.begin(*steps, unless, agent);
+                        state.begin(*steps, unless, agent, configuration);
                     }
                     holds
                 }
                 Formula::OnlyAfter { action, event, until } => {
                     let holds = count(action) == 0 || state.allowed;
-                    if any(until) && !waits(event, agent) {
+                    if any(until) && !waits(event, agent, configuration) {
                         state.allowed = false;
                     }
                     holds
@@ -133,8 +166,14 @@ impl Monitors {
 }
 
 impl State {
-    fn begin(&mut self, steps: u32, unless: &[ExternalTrigger], agent: &Interpreter) {
-        if self.due == 0 && !unless.iter().any(|event| waits(event, agent)) {
+    fn begin(
+        &mut self,
+        steps: u32,
+        unless: &[ExternalTrigger],
+        agent: &Interpreter,
+        configuration: &Configuration,
+    ) {
+        if self.due == 0 && !unless.iter().any(|event| waits(event, agent, configuration)) {
             self.due = steps;
         }
     }
@@ -150,11 +189,19 @@ impl State {
 }
 
 fn is_same(one: &ExternalTrigger, other: &ExternalTrigger) -> bool {
+    let source = |event: &ExternalTrigger| event.source.as_ref().map(|peer| peer.text.clone());
     (one.operator, one.kind, &one.name.text) == (other.operator, other.kind, &other.name.text)
+        && source(one) == source(other)
 }
 
-fn waits(event: &ExternalTrigger, agent: &Interpreter) -> bool {
-    agent.is_waiting(event.operator, event.kind, &event.name.text)
+fn waits(event: &ExternalTrigger, agent: &Interpreter, configuration: &Configuration) -> bool {
+    let ExternalTrigger { operator, kind, name, source, .. } = event;
+    match source {
+        Some(peer) => configuration
+            .peer(&peer.text)
+            .is_some_and(|peer| agent.is_waiting_from(peer, *operator, *kind, &name.text)),
+        None => agent.is_waiting(*operator, *kind, &name.text),
+    }
 }
 
 fn count(name: &Name, calls: &BTreeMap<String, u32>, configuration: &Configuration) -> u32 {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use diagnostic::Diagnostic;
 use translator::configuration::{Configuration, ExternalTrigger};
 use translator::interpreter::{Interpreter, Value, trigger, with_values};
+use translator::syntax::ast::Performative;
 use translator::types::TypeKind;
 use translator::{CounterexampleStep, ParsedConfiguration, TranslateError};
 
@@ -110,6 +111,10 @@ impl Session {
                 let (what, said) = (performative.name(), with_values(about, said));
                 return vec![at(0, format!("{sender} sends {what} {said}{refused}"))];
             }
+            Some(Statement::Be(peer)) => {
+                let name = self.configuration.peers.get(*peer).map_or("?", |peer| &peer.text);
+                return vec![at(0, format!("the agent is {name}"))];
+            }
             Some(Statement::Clear) => {
                 return vec![at(0, "the environment drops all events: clear()".to_owned())];
             }
@@ -144,8 +149,7 @@ impl Session {
                     Some(Value::Integer(sender)) => usize::try_from(*sender).unwrap_or(usize::MAX),
                     _ => usize::MAX,
                 };
-                let said = values[1..].to_vec();
-                if !self.now.agent.receive(sender, performative, &about, said) {
+                if !self.receive(sender, performative, &about, values[1..].to_vec()) {
                     shown.push(
                         "// refused: not from this peer, or too many of them wait".to_owned(),
                     );
@@ -179,12 +183,30 @@ impl Session {
     }
 
     fn raise(&mut self, event: &ExternalTrigger, values: Vec<Value>, shown: &mut Vec<String>) {
-        let before = self.now.agent.clone();
-        let name = &event.name.text;
-        match self.now.agent.raise(event.operator, event.kind, name, values) {
-            Ok(()) => self.now.monitors.raised(event, &self.configuration, &before),
+        let State { agent, monitors, .. } = &mut self.now;
+        match agent.raise(event.operator, event.kind, &event.name.text, values) {
+            Ok(()) => monitors.raised(event, &self.configuration, agent),
             Err(refused) => shown.push(format!("// refused: {refused}")),
         }
+    }
+
+    /// A message arrives. False if it is refused.
+    pub(super) fn receive(
+        &mut self,
+        sender: usize,
+        performative: Performative,
+        about: &str,
+        values: Vec<Value>,
+    ) -> bool {
+        let State { agent, world, monitors, .. } = &mut self.now;
+        let before = agent.clone();
+        let is_news = agent.is_news(sender, performative, about, &values);
+        let accepted = agent.receive(sender, performative, about, values, world);
+        if accepted {
+            let said = (sender, performative, about, is_news);
+            monitors.heard(said, &self.configuration, &before, agent);
+        }
+        accepted
     }
 
     fn undo(&mut self, count: u32) -> Result<(), String> {

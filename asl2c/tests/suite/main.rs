@@ -16,6 +16,7 @@ mod gallery;
 mod guide;
 mod harness;
 mod headers;
+mod heard;
 mod lsp;
 mod on_target;
 mod prove;

@@ -334,7 +334,8 @@ fn run(
                 } else {
                     *lost = 0;
                     let Message { from, to, performative, about, values, .. } = message;
-                    agents[to].receive(from, performative, about, values);
+                    let mut world = World { random, calls: Vec::new() };
+                    agents[to].receive(from, performative, about, values, &mut world);
                 }
             }
             _ if !moved[agent] => {

@@ -446,23 +446,14 @@ fn what_the_relation_does_not_know_is_not_proved() {
     assert!(status == Some(3) && text.contains("`exit` cannot be judged"), "{text}");
 }
 
-/// Mistakes in what peers say: each is found, and the C itself is right.
-#[test]
-fn mistakes_in_messages_are_found() {
+/// Judges an agent's C with each of these texts replaced by another: the C itself is right, and each mistake is found.
+fn find_mistakes(configuration: &str, agent: &str, mistakes: &[(&str, &str)]) {
     let Some(cbmc) = cbmc() else {
         skip("cbmc");
         return;
     };
     let folder = tempfile::tempdir().unwrap();
     let configured = folder.path().join("talker.conf");
-    let configuration =
-        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; };
-        basics { void say(uint8_t); };
-        peers { a, b };
-        messages { tell at(uint8_t) from any; achieve go(uint8_t) from any, 2; };\n";
-    let agent = "-at(X) <- say(X).
-        +!go(X)[source(b)] <- say(X); .broadcast(untell, at).
-        +!go(_) <- true.\n";
     std::fs::write(&configured, configuration).unwrap();
     std::fs::write(folder.path().join("talker.asl"), agent).unwrap();
     let agent = Agent::read(&configured).unwrap();
@@ -478,22 +469,72 @@ fn mistakes_in_messages_are_found() {
     };
     let (status, text) = judged("return event;", "return event;");
     assert_eq!(status, Some(0), "{text}");
-    let taken_back = "agent.belief_at_from_b_held = false;\n                accepted";
-    let lost = "agent.belief_at_from_b_held = false;\n                agent.belief_at_from_b_1 = 0U;\n                accepted";
-    for (old, new) in [
-        // The newest value does not win.
-        ("belief_at_from_b_1 = argument2;", "belief_at_from_b_1 = agent.belief_at_from_b_1;"),
-        // The last value is gone when that is noticed.
-        (taken_back, lost),
-        // A ring that overwrites, and a sender that starves the other one.
-        ("asked_go_from_b_count < 2U", "asked_go_from_b_count < 3U"),
-        ("agent.asked_turn = (value + 1U) % 2U;", "agent.asked_turn = value % 2U;"),
-        // A message from oneself.
-        ("if (argument1 != agent.me)", "if (argument1 != 3U)"),
-    ] {
+    for (old, new) in mistakes {
         let (status, text) = judged(old, new);
         assert_eq!(status, Some(1), "{old}: {text}");
     }
+}
+
+#[test]
+fn mistakes_in_messages_are_found() {
+    let configuration =
+        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; };
+        basics { void say(uint8_t); };
+        peers { a, b };
+        messages { tell at(uint8_t) from any; achieve go(uint8_t) from any, 2; };\n";
+    let agent = "-at(X) <- say(X).
+        +!go(X)[source(b)] <- say(X); .broadcast(untell, at).
+        +!go(_) <- true.\n";
+    let taken_back = "agent.belief_at_from_b_held = false;\n                accepted";
+    let lost = "agent.belief_at_from_b_held = false;\n                agent.belief_at_from_b_1 = 0U;\n                accepted";
+    find_mistakes(
+        configuration,
+        agent,
+        &[
+            // The newest value does not win.
+            ("belief_at_from_b_1 = argument2;", "belief_at_from_b_1 = agent.belief_at_from_b_1;"),
+            // The last value is gone when that is noticed.
+            (taken_back, lost),
+            // A ring that overwrites, and a sender that starves the other one.
+            ("asked_go_from_b_count < 2U", "asked_go_from_b_count < 3U"),
+            ("agent.asked_turn = (value + 1U) % 2U;", "agent.asked_turn = value % 2U;"),
+            // A message from oneself.
+            ("if (argument1 != agent.me)", "if (argument1 != 3U)"),
+        ],
+    );
+}
+
+#[test]
+fn mistakes_in_urgent_goals_and_ages_are_found() {
+    let configuration =
+        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; clock = now; };
+        basics { void say(uint8_t); void old(int32_t); int32_t now(void); };
+        peers { a, b };
+        messages { tell at(uint8_t) from any; achieve land from any, 2; };
+        preemptive { +!land; };
+        types { go(uint8_t); };\n";
+    let agent = "!go(0).
+        +!go(X) <- say(X); !go(X).
+        +!land[source(b)] <- say(1).
+        +!land <- say(2).
+        +at(_) : at(_)[source(P), age(A)] & A > 3 & P \\== b <- old(A).\n";
+    let taken = "event = take_urgent_land();";
+    let told = "agent.belief_at_from_b_told_at = now();";
+    find_mistakes(
+        configuration,
+        agent,
+        &[
+            // What is posted is not taken back, or not counted.
+            ("        agent.posted = EVENT_NONE;\n    }\n    else", "    }\n    else"),
+            (taken, "event = take_urgent_land();\n        agent.posted = EVENT_NONE;"),
+            // A sender that starves the other one.
+            ("agent.urgent_turn_land = (value + 1U) % 2U;", "agent.urgent_turn_land = value % 2U;"),
+            // The time of another sender, none, and one that is not the clock's.
+            ("agent.belief_at_from_a_told_at, &", "agent.belief_at_from_b_told_at, &"),
+            (told, ""),
+            (told, "(void)now();\n                agent.belief_at_from_b_told_at = 0;"),
+        ],
+    );
 }
 
 /// What could not be compared must not look like a proof.

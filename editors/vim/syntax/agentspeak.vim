@@ -14,7 +14,7 @@ syntax match agentspeakGoal /!\@1<=\s*[a-z]\w*/
 syntax match agentspeakBelief /?\@1<=\s*[a-z]\w*/
 syntax match agentspeakLabel /@\s*[a-z]\w*/
 syntax match agentspeakInternal /\.\s*\(wait\|send\|broadcast\|my_name\)\>/
-syntax match agentspeakAnnotation /\<\(req\|deadline\|source\)\ze\s*(/
+syntax match agentspeakAnnotation /\<\(req\|deadline\|source\|age\)\ze\s*(/
 syntax keyword agentspeakBoolean true false
 syntax keyword agentspeakWord not mod
 syntax match agentspeakEscape contained /\\["\\nt]/

@@ -15,6 +15,7 @@ syntax match agentspeakconfFormula /\<all\ze\_s\+\h\w*\_s\+but\>/
 syntax match agentspeakconfFormula /\<but\ze\_s\+\h/
 syntax match agentspeakconfFormula /\<\(tell\|achieve\)\ze\_s\+\h/
 syntax match agentspeakconfFormula /\<from\ze\_s\+\h/
+syntax match agentspeakconfFormula /\[\s*\zssource\ze\s*(/
 syntax match agentspeakconfInclude /#include\s*\(<[^>]*>\|"[^"]*"\)/
 syntax match agentspeakconfComment +//.*$+ contains=@Spell
 syntax region agentspeakconfComment start=+/\*+ end=+\*/+ contains=@Spell

@@ -95,7 +95,7 @@ test("every configuration is coloured, and recognised", async () => {
 test("names and symbols have the scopes of their meaning", async () => {
   const text = `b(1, "x\\n"). // note
 !go.
-@l[req("R-1")] +!go(X, _)[source(self)] : .my_name(M) & b(X, Y) & not (X mod 2 \\== 1.5e3) | true
+@l[req("R-1")] +!go(X, _)[source(self)] : .my_name(M) & b(X, Y)[age(A)] & not (X mod 2 \\== 1.5e3) | true
   <- act(X); +b(-Y, f(3)); -b(_, _); !!go(1, 2); ?b(X, Z); Y = X - dim(1); .wait(500); .broadcast(tell, c); !go(X, Z)[deadline(9)].`;
   const scopes = new Map();
   for (const token of await tokens(AGENT, text)) {
@@ -108,6 +108,7 @@ test("names and symbols have the scopes of their meaning", async () => {
     req: ["keyword.other.annotation"],
     deadline: ["keyword.other.annotation"],
     source: ["keyword.other.annotation"],
+    age: ["keyword.other.annotation"],
     ".wait": ["keyword.control.internal"],
     ".my_name": ["keyword.control.internal"],
     ".broadcast": ["keyword.control.internal"],
@@ -153,6 +154,9 @@ test("peers and messages have their scopes", async () => {
   }
   assert.equal(scope("at"), "entity.name.function");
   assert.equal(scope("4"), "constant.numeric");
+  const property = await tokens(CONFIGURATION, "properties { p: within(2, +!go[source(scout)], act); };");
+  const annotation = property.find((token) => token.text === "source");
+  assert.equal(annotation.scope, "keyword.other.annotation.agentspeak-configuration");
 });
 
 test("what is no AgentSpeak is marked", async () => {

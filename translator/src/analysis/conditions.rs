@@ -108,8 +108,8 @@ impl Analysis<'_> {
     }
 
     fn atom_condition(&mut self, atom: &Atom, scope: &mut Scope) -> Resolved<Condition> {
-        if let Some(source) = &atom.source {
-            return Err(no_source(&atom.name.text, source.span()));
+        if let Some(annotation) = atom.source.as_ref().or(atom.age.as_ref()) {
+            return Err(no_source(&atom.name.text, annotation.span()));
         }
         if !self.declarations.is_basic(&atom.name.text) {
             let types = self.declarations.predicate(atom)?;

@@ -124,7 +124,8 @@ impl Declarations {
                 findings.push(self.undeclared(action, "basics"));
             }
         }
-        for event in events {
+        // Those of peers need plans and are checked with their messages.
+        for event in events.into_iter().filter(|event| event.source.is_none()) {
             let same = |other: &&ExternalTrigger| {
                 (other.operator, other.kind, &other.name.text)
                     == (event.operator, event.kind, &event.name.text)
@@ -133,7 +134,7 @@ impl Declarations {
                 findings.push(
                     Code::NotTriggerable
                         .at("the environment does not raise this", event.span.clone())
-                        .help("properties refer to events of the section `triggerables`"),
+                        .help("properties refer to events of the section `triggerables`, or of one peer: `+!goal[source(peer)]`"),
                 );
             }
         }

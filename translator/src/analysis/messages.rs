@@ -8,16 +8,17 @@ use std::collections::HashSet;
 use diagnostic::Span;
 
 use super::Analysis;
+use super::age::no_age_of_events;
 use super::declarations::not_a_peer;
 use super::scope::Scope;
 use super::values::Resolved;
 use crate::code::Code;
-use crate::configuration::{Cause, Configuration, Formula as Property, sending};
+use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula as Property, sending};
 use crate::program::{
     Alternatives, Asked, BeliefId, Condition, Pattern, Step, Told, Value, peer_constant,
 };
 use crate::syntax::ast::{
-    Agent, Atom, Expression, Formula, Operator, Performative, Relation, TriggerKind,
+    Agent, Atom, Expression, Formula, Name, Operator, Performative, Relation, TriggerKind,
 };
 use crate::types::CType;
 
@@ -114,6 +115,7 @@ impl Analysis<'_> {
             }
         }
         self.check_names();
+        self.caused();
         for message in self.configuration.messages.clone() {
             let name = &message.name.text;
             let handler =
@@ -124,11 +126,14 @@ impl Analysis<'_> {
                 let Some(handler) = handler(self, Operator::Add, TriggerKind::Achieve) else {
                     continue;
                 };
+                let mut preemptive = self.configuration.preemptive.iter();
+                let preemptive = preemptive.any(|goal| goal.name.text == *name);
                 asked.extend(message.senders.iter().map(|sender| Asked {
                     name: name.clone(),
                     sender: *sender,
                     handler,
                     room: message.room,
+                    preemptive,
                 }));
                 continue;
             }
@@ -136,10 +141,54 @@ impl Analysis<'_> {
             let removed = handler(self, Operator::Delete, TriggerKind::Belief);
             for sender in &message.senders {
                 let belief = self.told_belief(name, *sender, &message.parameters);
-                told.push(Told { name: name.clone(), sender: *sender, belief, added, removed });
+                let (timed, name) = (self.timed.contains(&belief), name.clone());
+                told.push(Told { name, sender: *sender, belief, added, removed, timed });
             }
         }
         (told, asked)
+    }
+
+    /// Checks the events of peers in properties.
+    fn caused(&mut self) {
+        let properties = self.configuration.properties.clone();
+        for event in properties.iter().flat_map(|property| property.formula.events()) {
+            let Some(source) = &event.source else { continue };
+            let checked = self.cause(event, source);
+            self.findings.configuration.extend(checked.err());
+        }
+    }
+
+    /// Checks that a peer can cause an event.
+    fn cause(&self, event: &ExternalTrigger, source: &Name) -> Resolved<()> {
+        let name = &event.name.text;
+        let performative = match event.kind {
+            TriggerKind::Achieve => Performative::Achieve,
+            TriggerKind::Belief | TriggerKind::Test => Performative::Tell,
+        };
+        let Some(message) = self.configuration.message(performative, name) else {
+            return Err(no_source(name, event.name.span.clone()));
+        };
+        match self.configuration.peer(&source.text) {
+            None => {
+                return Err(Code::NotDeclared
+                    .at(format!("`{}` is not a peer", source.text), source.span.clone())
+                    .help("write a name of the section `peers`; an event without source is the environment's"));
+            }
+            Some(number) if !message.senders.contains(&number) => {
+                return Err(never_sent(&source.text, performative, name, source.span.clone()));
+            }
+            Some(_) => {}
+        }
+        let is_goal = event.kind == TriggerKind::Achieve;
+        let has_plans = |operator| self.handler_id(operator, event.kind, name).is_some();
+        if has_plans(Operator::Add) || !is_goal && has_plans(Operator::Delete) {
+            return Ok(());
+        }
+        let wanted =
+            if is_goal { format!("`+!{name}`") } else { format!("`+{name}` or `-{name}`") };
+        Err(Code::MissingPlan
+            .at(format!("no plan for {wanted}"), event.span.clone())
+            .help("without plans, what a peer says is no event"))
     }
 
     /// Names of C that only agents with peers have.
@@ -157,11 +206,16 @@ impl Analysis<'_> {
         let place = first.span.clone();
         let receiving = self.configuration.receiving().into_iter();
         let receiving = receiving.map(|(name, _, message)| (name, message.span.clone()));
-        let own = OWN.iter().map(|name| ((*name).to_owned(), place.clone()));
+        let urgent = self.configuration.preemptive.iter().flat_map(|trigger| {
+            let goal = &trigger.name.text;
+            [format!("take_urgent_{goal}"), format!("hear_urgent_{goal}")]
+        });
+        let own = OWN.iter().map(|name| (*name).to_owned()).chain(urgent);
+        let own: Vec<_> = own.map(|name| (name, place.clone())).collect();
         let peers = self.configuration.peers.iter();
         let constants = peers.map(|peer| (peer_constant(&peer.text), peer.span.clone()));
         let structs = &self.configuration.structs;
-        for (name, span) in own.chain(receiving).chain(constants) {
+        for (name, span) in own.into_iter().chain(receiving).chain(constants) {
             let is_struct = structs.iter().any(|declared| {
                 // The constants of peers are macros, which fields cannot be called either.
                 let mut fields = declared.fields.iter();
@@ -214,6 +268,9 @@ impl Analysis<'_> {
         kind: TriggerKind,
         scope: &mut Scope,
     ) -> Option<Pattern> {
+        if let Some(error) = no_age_of_events(atom) {
+            self.error(error);
+        }
         let name = &atom.name.text;
         if !self.configuration.is_sourced(kind, name) {
             if let Some(source) = &atom.source {
@@ -249,10 +306,7 @@ impl Analysis<'_> {
         match self.named_source(atom) {
             None => Err(not_a_peer(&format!("`{}`", atom.name.text), atom.span.clone())),
             Some(Source::Peer(number)) if !senders.contains(&number) => {
-                let verb = if performative == Performative::Tell { "tells" } else { "asks for" };
-                Err(Code::NeverSent
-                    .at(format!("`{}` never {verb} `{name}`", atom.name.text), atom.span.clone())
-                    .help("the section `messages` names who may; what is one's own has the source `self`"))
+                Err(never_sent(&atom.name.text, performative, name, atom.span.clone()))
             }
             Some(_) => Ok(()),
         }
@@ -279,6 +333,7 @@ impl Analysis<'_> {
         if let Some(source) = &atom.source {
             self.check_source(source, Performative::Tell, name)?;
         }
+        self.check_age(atom)?;
         let sources = self.sources(atom);
         if let [only] = sources.as_slice() {
             self.told_by(*only, atom, &types, scope, conjunction)?;
@@ -314,7 +369,9 @@ impl Analysis<'_> {
         let name = &atom.name.text;
         let message = self.configuration.message(Performative::Tell, name);
         let peers = message.into_iter().flat_map(|message| &message.senders);
-        let own = self.own.contains(name).then_some(Source::Own);
+        // What is one's own has no age.
+        let is_own = self.own.contains(name) && atom.age.is_none();
+        let own = is_own.then_some(Source::Own);
         let all = own.into_iter().chain(peers.map(|number| Source::Peer(*number)));
         let wanted = match atom.source.as_deref() {
             Some(Expression::Atom(source)) => self.named_source(source),
@@ -347,20 +404,22 @@ impl Analysis<'_> {
         let patterns = self.patterns(atom, types, scope)?;
         conjunction.push(Condition::Holds { belief, patterns });
         let found = source.value(&self.configuration);
-        let condition = match atom.source.as_deref() {
-            None | Some(Expression::Unnamed(_)) => return Ok(()),
+        match atom.source.as_deref() {
+            None | Some(Expression::Unnamed(_)) => {}
             Some(Expression::Variable(name)) if scope.lookup(&name.text).is_none() => {
-                Condition::Bind { variable: scope.bind(name, &CType::peer()), value: found }
+                let variable = scope.bind(name, &CType::peer());
+                conjunction.push(Condition::Bind { variable, value: found });
             }
             Some(wanted) => {
                 let wanted = self.value(wanted, &CType::peer(), scope)?;
-                if wanted == found {
-                    return Ok(());
+                if wanted != found {
+                    conjunction.push(equal(found, wanted));
                 }
-                equal(found, wanted)
             }
-        };
-        conjunction.push(condition);
+        }
+        if let Some(age) = &atom.age {
+            conjunction.extend(self.aged(belief, age, scope)?);
+        }
         Ok(())
     }
 
@@ -455,6 +514,18 @@ pub(super) fn check_peers_differ(left: &Value, right: &Value, span: &Span) -> Re
         }
         _ => Ok(()),
     }
+}
+
+fn never_sent(
+    peer: &str,
+    performative: Performative,
+    name: &str,
+    span: Span,
+) -> diagnostic::Diagnostic {
+    let verb = if performative == Performative::Tell { "tells" } else { "asks for" };
+    Code::NeverSent
+        .at(format!("`{peer}` never {verb} `{name}`"), span)
+        .help("the section `messages` names who may; what is one's own has the source `self`")
 }
 
 pub(super) fn no_source(name: &str, span: Span) -> diagnostic::Diagnostic {

@@ -3,6 +3,7 @@
 //! The order: declarations, then the triggers and their recursion, then each plan. All errors of a file are
 //! reported in one run.
 
+mod age;
 mod conditions;
 pub(crate) mod constants;
 mod declarations;
@@ -74,6 +75,7 @@ pub(crate) fn analyse(
         configuration: configuration.clone(),
         own: HashSet::new(),
         searched: 0,
+        timed: HashSet::new(),
         clock,
         line_starts: std::iter::once(0)
             .chain(text.match_indices('\n').map(|(newline, _)| newline + 1))
@@ -168,6 +170,8 @@ struct Analysis<'a> {
     own: HashSet<String>,
     /// Ways to choose the sources of the context that is being resolved.
     searched: usize,
+    /// Beliefs of peers whose age is asked for.
+    timed: HashSet<BeliefId>,
     clock: Option<Clock>,
     /// Offset of each line.
     line_starts: Vec<usize>,
@@ -422,17 +426,29 @@ impl Analysis<'_> {
                 (other.operator, other.kind, &other.name.text)
                     == (trigger.operator, trigger.kind, &trigger.name.text)
             });
-            if !listed {
+            // A goal or belief of peers.
+            let sent = configuration.is_sourced(trigger.kind, &trigger.name.text);
+            if !listed && !sent {
                 self.findings.configuration.push(
                     Code::NotTriggerable
                         .at("a pre-emptive event must be triggerable", trigger.span.clone())
-                        .help("list it in `triggerables` too"),
+                        .help(
+                            "list it in `triggerables` too, or in `messages` if peers ask for it",
+                        ),
                 );
             } else if trigger.kind != TriggerKind::Achieve {
                 self.findings.configuration.push(
                     Code::NotPreemptive
                         .at("only goals can pre-empt", trigger.span.clone())
                         .help("raise a goal, `+!goal`, instead"),
+                );
+            } else if !listed
+                && self.handler_id(trigger.operator, trigger.kind, &trigger.name.text).is_none()
+            {
+                self.findings.configuration.push(
+                    Code::MissingPlan
+                        .at(format!("no plan for `+!{}`", trigger.name.text), trigger.span.clone())
+                        .help("what is urgent would be refused"),
                 );
             }
         }

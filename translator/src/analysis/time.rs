@@ -30,6 +30,15 @@ pub(super) struct Clock {
 }
 
 impl Clock {
+    pub(super) fn function(&self) -> BasicId {
+        self.function
+    }
+
+    /// The type of its times.
+    pub(super) fn ctype(&self) -> &CType {
+        &self.ctype
+    }
+
     pub(super) fn into_parts(self) -> (BasicId, CType) {
         (self.function, self.ctype)
     }

@@ -296,20 +296,7 @@ fn agent(writer: &mut Writer, program: &Program) {
         .line("/// If the environment panics: C completes its step, then the panic continues. An");
     writer.line("/// agent must not be run again after that; it panics.");
     writer.open_here("pub fn next_step(&mut self, environment: &mut dyn Environment)");
-    writer.line("assert!(!self.broken, \"the agent's environment has panicked before\");");
-    writer.line("let mut loan = Loan { environment, panic: None };");
-    writer.line("self.state.environment = (&raw mut loan).cast();");
-    writer.line(
-        "// SAFETY: the state is initialised and exclusively borrowed; the loan lives until the",
-    );
-    writer
-        .line("// call returns, and the pointer to it is cleared then. Nothing unwinds through C.");
-    writer.line(format!("unsafe {{ {prefix}next_step(&raw mut self.state) }};"));
-    writer.line("self.state.environment = core::ptr::null_mut();");
-    writer.open_here("if let Some(panic) = loan.panic");
-    writer.line("self.broken = true;");
-    writer.line("std::panic::resume_unwind(panic);");
-    writer.close("}");
+    lent(writer, &format!("{prefix}next_step(&raw mut self.state)"), "");
     writer.close("}");
     writer.line("");
     let query = |writer: &mut Writer, doc: &str, name: &str, result: &str| {
@@ -351,6 +338,28 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("pub const STATE_BYTES: usize = size_of::<State>();");
 }
 
+/// The body of a method that lends the environment to C for one call.
+fn lent(writer: &mut Writer, call: &str, result: &str) {
+    writer.line("assert!(!self.broken, \"the agent's environment has panicked before\");");
+    writer.line("let mut loan = Loan { environment, panic: None };");
+    writer.line("self.state.environment = (&raw mut loan).cast();");
+    writer.line(
+        "// SAFETY: the state is initialised and exclusively borrowed; the loan lives until the",
+    );
+    writer
+        .line("// call returns, and the pointer to it is cleared then. Nothing unwinds through C.");
+    let kept = if result.is_empty() { String::new() } else { format!("let {result} = ") };
+    writer.line(format!("{kept}unsafe {{ {call} }};"));
+    writer.line("self.state.environment = core::ptr::null_mut();");
+    writer.open_here("if let Some(panic) = loan.panic");
+    writer.line("self.broken = true;");
+    writer.line("std::panic::resume_unwind(panic);");
+    writer.close("}");
+    if !result.is_empty() {
+        writer.line(result);
+    }
+}
+
 /// The methods for messages that arrive.
 fn receive(writer: &mut Writer, program: &Program) {
     let prefix = symbol_prefix(program);
@@ -359,14 +368,20 @@ fn receive(writer: &mut Writer, program: &Program) {
         writer.line("");
         writer.line(format!("/// {} The first argument is the sender.", function.comment()));
         writer.line("#[must_use = \"a refused message is lost\"]");
+        let lends = if function.asks_time { ", environment: &mut dyn Environment" } else { "" };
         writer.open_here(format!(
-            "pub fn {}(&mut self{}) -> bool",
+            "pub fn {}(&mut self{lends}{}) -> bool",
             snake_case(name),
             typed_parameters(&function.types)
         ));
-        writer.line("// SAFETY: the state is initialised and exclusively borrowed.");
         let arguments = arguments(&function.types);
-        writer.line(format!("unsafe {{ {prefix}{name}(&raw mut self.state{arguments}) }}"));
+        let call = format!("{prefix}{name}(&raw mut self.state{arguments})");
+        if function.asks_time {
+            lent(writer, &call, "accepted");
+        } else {
+            writer.line("// SAFETY: the state is initialised and exclusively borrowed.");
+            writer.line(format!("unsafe {{ {call} }}"));
+        }
         writer.close("}");
     }
 }

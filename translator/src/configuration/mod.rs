@@ -340,7 +340,7 @@ pub struct Predicate {
     pub span: Span,
 }
 
-/// `+!g`, `+b` or `-b` in `triggerables` or `preemptive`.
+/// `+!g`, `+b` or `-b` in `triggerables`, `preemptive` or a property.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExternalTrigger {
     /// `+` or `-`
@@ -349,6 +349,8 @@ pub struct ExternalTrigger {
     pub kind: TriggerKind,
     /// Its name.
     pub name: Name,
+    /// The peer that causes it, in properties; otherwise it is the agent's environment.
+    pub source: Option<Name>,
     /// The whole entry.
     pub span: Span,
 }

@@ -58,6 +58,20 @@ pub enum Formula {
     AllHandled,
 }
 
+impl Formula {
+    /// The events that it is about.
+    pub(crate) fn events(&self) -> Vec<&ExternalTrigger> {
+        match self {
+            Self::Count { .. } | Self::AllHandled => Vec::new(),
+            Self::Within { cause: Cause::Event(cause), unless, .. } => {
+                std::iter::once(cause).chain(unless).collect()
+            }
+            Self::Within { unless, .. } => unless.iter().collect(),
+            Self::OnlyAfter { event, .. } => vec![event],
+        }
+    }
+}
+
 /// Bound on the calls in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CallBound {
@@ -74,7 +88,7 @@ pub enum CallBound {
 /// Cause that requires an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Cause {
-    /// The environment raised an event, and it was accepted.
+    /// The environment raised an event, or a peer caused it, and it was accepted.
     Event(ExternalTrigger),
     /// The agent called an action.
     Action(Name),
@@ -168,7 +182,7 @@ impl Parser<'_> {
         self.scanner.expect(",")?;
         self.scanner.skip_blanks()?;
         let cause = if self.scanner.rest().starts_with(['+', '-']) {
-            Cause::Event(self.scanner.trigger()?)
+            Cause::Event(self.event()?)
         } else {
             let name = self.scanner.word("an event, an action or a belief")?;
             match self.relation()? {
@@ -185,7 +199,7 @@ impl Parser<'_> {
             let word = self.scanner.word("an action, a class of actions, or `unless`")?;
             self.scanner.skip_blanks()?;
             if word.text == "unless" {
-                unless.push(self.scanner.trigger()?);
+                unless.push(self.event()?);
             } else {
                 actions.push(word);
             }
@@ -199,6 +213,25 @@ impl Parser<'_> {
             return Err(self.scanner.unexpected("an action that must follow"));
         }
         Ok(Formula::Within { steps, cause, actions, unless })
+    }
+
+    /// `+!g`, which the environment raises, or `+!g[source(p)]`, which a peer causes.
+    fn event(&mut self) -> Parsed<ExternalTrigger> {
+        let mut event = self.scanner.trigger()?;
+        if self.scanner.rest().trim_start().starts_with('[') {
+            self.scanner.expect("[")?;
+            let word = self.scanner.word("`source`")?;
+            if word.text != "source" {
+                let message = format!("expected `source`, found `{}`", word.text);
+                return Err(Code::Syntax.at(message, word.span));
+            }
+            self.scanner.expect("(")?;
+            event.source = Some(self.scanner.word("a peer")?);
+            self.scanner.expect(")")?;
+            self.scanner.expect("]")?;
+            event.span.end = self.scanner.position;
+        }
+        Ok(event)
     }
 
     fn relation(&mut self) -> Parsed<Option<Relation>> {
@@ -248,7 +281,7 @@ impl Parser<'_> {
         let action = self.scanner.word("an action or a class of actions")?;
         self.scanner.expect(",")?;
         self.scanner.skip_blanks()?;
-        let event = self.scanner.trigger()?;
+        let event = self.event()?;
         self.scanner.skip_blanks()?;
         let mut until = Vec::new();
         while self.scanner.take(",") {

@@ -96,7 +96,7 @@ impl<'a> Scanner<'a> {
                 .at("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
         }
-        Ok(ExternalTrigger { operator, kind, name, span })
+        Ok(ExternalTrigger { operator, kind, name, source: None, span })
     }
 
     pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {

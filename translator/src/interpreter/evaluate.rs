@@ -162,15 +162,18 @@ impl Interpreter {
                     bound.push((variable.text.clone(), ctype));
                 }
             }
-            Expression::MyName { name, .. } => bound_peer(name, bound),
+            Expression::MyName { name, .. } => bound_to(name, &CType::peer(), bound),
             Expression::Atom(atom) if !self.is_basic(&atom.name.text) => {
-                atom.source.iter().for_each(|source| bound_peer(source, bound));
+                atom.source.iter().for_each(|source| bound_to(source, &CType::peer(), bound));
                 for (argument, ctype) in atom.arguments.iter().zip(self.types(&atom.name.text)) {
                     if let Expression::Variable(name) = argument
                         && bound.iter().all(|(other, _)| *other != name.text)
                     {
                         bound.push((name.text.clone(), ctype));
                     }
+                }
+                if let Some((age, (_, ctype))) = atom.age.as_ref().zip(self.clock()) {
+                    bound_to(age, &ctype, bound);
                 }
             }
             _ => {}
@@ -317,12 +320,12 @@ impl Interpreter {
     }
 }
 
-/// Adds a variable that stands for a peer.
-fn bound_peer(name: &Expression, bound: &mut Vec<(String, CType)>) {
+/// Adds a variable of this type.
+fn bound_to(name: &Expression, ctype: &CType, bound: &mut Vec<(String, CType)>) {
     if let Expression::Variable(name) = name
         && bound.iter().all(|(other, _)| *other != name.text)
     {
-        bound.push((name.text.clone(), CType::peer()));
+        bound.push((name.text.clone(), ctype.clone()));
     }
 }
 

@@ -9,7 +9,7 @@ use crate::syntax::ast::{Atom, Expression, Operator, Performative, TriggerKind};
 use crate::types::CType;
 
 /// A belief or goal, and the peer that it comes from.
-type Said = (String, usize);
+pub(super) type Said = (String, usize);
 
 /// What peers have said.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,12 +18,16 @@ pub(super) struct Mail {
     pub(super) me: usize,
     /// The last values of beliefs, and whether they are believed still.
     told: BTreeMap<Said, (bool, Vec<Value>)>,
+    /// When that was told, if the age is asked for anywhere.
+    told_at: BTreeMap<Said, Value>,
     /// Beliefs that have changed since that was noticed.
     changed: BTreeSet<Said>,
     asked: BTreeMap<Said, VecDeque<Vec<Value>>>,
     /// The peers that are heard first.
     asked_turn: usize,
     told_turn: usize,
+    /// For each goal that pre-empts.
+    urgent_turns: BTreeMap<String, usize>,
 }
 
 impl Mail {
@@ -32,6 +36,17 @@ impl Mail {
         self.changed.clear();
         self.asked.clear();
         (self.asked_turn, self.told_turn) = (0, 0);
+        self.urgent_turns.clear();
+    }
+
+    pub(super) fn is_asked(&self, said: &Said) -> bool {
+        self.asked.get(said).is_some_and(|waiting| !waiting.is_empty())
+    }
+
+    /// Whether a change waits, and what was told is believed then or not.
+    pub(super) fn has_changed(&self, said: &Said, believed: bool) -> bool {
+        self.changed.contains(said)
+            && self.told.get(said).is_some_and(|(held, _)| *held == believed)
     }
 
     /// What is believed.
@@ -60,6 +75,7 @@ impl Interpreter {
         performative: Performative,
         name: &str,
         values: Vec<Value>,
+        environment: &mut dyn Environment,
     ) -> bool {
         let Some(message) = self.configuration.message(performative, name) else { return false };
         if from == self.mail.me || !message.senders.contains(&from) {
@@ -72,10 +88,14 @@ impl Interpreter {
         let (room, said) = (message.room, (name.to_owned(), from));
         match performative {
             Performative::Tell => {
-                let same = self.mail.told.get(&said);
-                let same = same.is_some_and(|(held, old)| *held && Value::all_equal(old, &values));
-                if !same {
+                if self.is_news(from, performative, name, &values) {
                     self.mail.changed.insert(said.clone());
+                }
+                if self.asks_age(&said) {
+                    let now = self
+                        .clock()
+                        .and_then(|(clock, ctype)| environment.call(&clock, &[], &ctype));
+                    self.mail.told_at.extend(now.map(|now| (said.clone(), now)));
                 }
                 self.mail.told.insert(said, (true, values));
             }
@@ -99,6 +119,23 @@ impl Interpreter {
         true
     }
 
+    /// Whether a peer that says this, if that is accepted, asks for something or changes what is believed.
+    pub fn is_news(
+        &self,
+        from: usize,
+        performative: Performative,
+        name: &str,
+        values: &[Value],
+    ) -> bool {
+        let told = self.mail.told.get(&(name.to_owned(), from)).filter(|(held, _)| *held);
+        match performative {
+            Performative::Tell => !told.is_some_and(|(_, old)| Value::all_equal(old, values)),
+            Performative::Untell => told.is_some(),
+            Performative::Achieve => true,
+            Performative::Unachieve => false,
+        }
+    }
+
     /// The values of an event with its source, if its plans are told; the agent or its environment has caused it.
     pub(super) fn own(&self, kind: TriggerKind, name: &str, mut values: Vec<Value>) -> Vec<Value> {
         if self.configuration.is_sourced(kind, name) {
@@ -114,6 +151,25 @@ impl Interpreter {
         types
     }
 
+    /// The next peer that waits with a goal, from this one on, and what it gives the goal.
+    fn next_asked(&mut self, goal: &str, sender: usize) -> Option<Event> {
+        let waiting = self.mail.asked.get_mut(&(goal.to_owned(), sender));
+        let mut arguments = waiting.and_then(VecDeque::pop_front)?;
+        arguments.push(peer(sender));
+        let key = (Operator::Add, TriggerKind::Achieve, goal.to_owned());
+        Some(Event { key, arguments, origin: Origin::Agent })
+    }
+
+    /// The next event of a goal that pre-empts.
+    pub(super) fn next_urgent(&mut self, goal: &str) -> Option<Event> {
+        let peers = self.configuration.peers.len();
+        let first = self.mail.urgent_turns.get(goal).copied().unwrap_or_default();
+        let (sender, event) = in_turn(first, peers)
+            .find_map(|sender| Some((sender, self.next_asked(goal, sender)?)))?;
+        self.mail.urgent_turns.insert(goal.to_owned(), (sender + 1) % peers);
+        Some(event)
+    }
+
     /// The next message that has plans: goals first, then beliefs that were told or taken back.
     pub(super) fn next_message(&mut self) -> Option<Event> {
         let configuration = std::sync::Arc::clone(&self.configuration);
@@ -124,13 +180,12 @@ impl Interpreter {
                 .map(|message| message.name.text.clone())
         };
         for sender in in_turn(self.mail.asked_turn, peers) {
+            // What pre-empts has been looked for before.
             for name in names(Performative::Achieve) {
-                let waiting = self.mail.asked.get_mut(&(name.clone(), sender));
-                let Some(mut arguments) = waiting.and_then(VecDeque::pop_front) else { continue };
-                self.mail.asked_turn = (sender + 1) % peers;
-                arguments.push(peer(sender));
-                let key = (Operator::Add, TriggerKind::Achieve, name);
-                return Some(Event { key, arguments, origin: Origin::Agent });
+                if let Some(event) = self.next_asked(&name, sender) {
+                    self.mail.asked_turn = (sender + 1) % peers;
+                    return Some(event);
+                }
             }
         }
         while !self.mail.changed.is_empty() {
@@ -157,16 +212,24 @@ impl Interpreter {
         None
     }
 
-    /// What waits of what peers said, without its order of service.
+    /// Such goals that peers ask for, without their order of service.
+    pub(super) fn asked_for(&self, is_such: impl Fn(&str) -> bool) -> Vec<String> {
+        let asked = self.mail.asked.iter().filter(|((goal, _), _)| is_such(goal));
+        let goals = asked.flat_map(|((goal, sender), waiting)| {
+            waiting.iter().map(move |values| {
+                let head = with_values(&format!("+!{goal}"), values);
+                format!("{head}[source({})]", self.peer_text(&peer(*sender)))
+            })
+        });
+        goals.collect()
+    }
+
+    /// What waits of what peers said and does not pre-empt, without its order of service.
     pub(super) fn said(&self) -> Vec<String> {
         let configuration = &self.configuration;
         let name = |number: usize| configuration.peers.get(number).map_or("?", |peer| &peer.text);
-        let asked = self.mail.asked.iter().flat_map(|((goal, sender), waiting)| {
-            waiting.iter().map(move |values| {
-                let head = with_values(&format!("+!{goal}"), values);
-                format!("{head}[source({})]", name(*sender))
-            })
-        });
+        let preempts = |goal: &str| configuration.preemptive.iter().any(|t| t.name.text == goal);
+        let asked = self.asked_for(|goal| !preempts(goal)).into_iter();
         let changed = self.mail.changed.iter().filter(|(belief, _)| {
             [Operator::Add, Operator::Delete]
                 .into_iter()
@@ -225,7 +288,9 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
         let name = &atom.name.text;
-        let own = self.beliefs.get(name).map(|values| (self.mail.me, values));
+        // What is one's own has no age.
+        let own = self.beliefs.get(name).filter(|_| atom.age.is_none());
+        let own = own.map(|values| (self.mail.me, values));
         let told = (0..self.configuration.peers.len()).filter_map(|sender| {
             let (held, values) = self.mail.told.get(&(name.clone(), sender))?;
             held.then_some((sender, values))
@@ -244,10 +309,14 @@ impl Interpreter {
                 for ((pattern, value), ctype) in atom.arguments.iter().zip(values).zip(&types) {
                     self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
                 }
-                match &atom.source {
-                    Some(source) => {
-                        let found = peer(sender);
-                        self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)
+                if let Some(source) = &atom.source {
+                    let found = peer(sender);
+                    self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)?;
+                }
+                match &atom.age {
+                    Some(wanted) => {
+                        let told_at = self.mail.told_at.get(&(name.clone(), sender));
+                        self.match_age(wanted, told_at, &mut theta, environment)
                     }
                     None => Some(()),
                 }

@@ -1,6 +1,6 @@
 //! Beliefs and pending events of an interpreted agent.
 
-use super::{Interpreter, Value};
+use super::{Event, Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 impl Interpreter {
@@ -29,19 +29,35 @@ impl Interpreter {
         external.chain(&self.preemptive).any(|event| is_this(&event.key))
     }
 
+    /// Whether an event that this peer has caused is pending.
+    pub fn is_waiting_from(
+        &self,
+        peer: usize,
+        operator: Operator,
+        kind: TriggerKind,
+        name: &str,
+    ) -> bool {
+        let said = (name.to_owned(), peer);
+        match kind {
+            TriggerKind::Achieve => self.mail.is_asked(&said),
+            TriggerKind::Belief => self.mail.has_changed(&said, operator == Operator::Add),
+            TriggerKind::Test => false,
+        }
+    }
+
     /// The pending events, each with its cause, in the order of service.
     pub fn waiting(&self) -> Vec<String> {
-        let rank = |key: &super::Key| {
-            self.configuration.preemptive.iter().position(|trigger| {
-                (trigger.operator, trigger.kind, &trigger.name.text) == (key.0, key.1, &key.2)
-            })
-        };
-        let mut first: Vec<_> = self.preemptive.iter().collect();
-        first.sort_by_key(|event| rank(&event.key));
-        let mut waiting: Vec<String> = first
-            .iter()
-            .map(|event| format!("{}, pre-empting", self.event_text(event, "")))
-            .collect();
+        let mut waiting = Vec::new();
+        for trigger in &self.configuration.preemptive {
+            let is_it = |event: &&Event| {
+                (trigger.operator, trigger.kind, &trigger.name.text)
+                    == (event.key.0, event.key.1, &event.key.2)
+            };
+            let raised = self.preemptive.iter().filter(is_it);
+            let raised = raised.map(|event| self.event_text(event, ""));
+            let asked = self.asked_for(|goal| goal == trigger.name.text);
+            waiting.extend(raised.chain(asked).map(|event| format!("{event}, pre-empting")));
+        }
         waiting.extend(self.posted.iter().map(|event| self.event_text(event, ", posted")));
         if let Some(deadline) = &self.deadline {
             let goal = self.with_source(&deadline.goal, &deadline.arguments);

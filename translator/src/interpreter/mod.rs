@@ -4,6 +4,7 @@
 //! has its own detection of recursion. If both leave the same trace, the translation is right. It requires an
 //! agent that [`crate::translate`] accepts.
 
+mod age;
 mod evaluate;
 mod messages;
 mod mind;
@@ -358,18 +359,21 @@ impl Interpreter {
 
     /// Takes the next event.
     fn take_event(&mut self, environment: &mut dyn Environment) -> Option<Event> {
-        let priority = |event: &Event| {
-            self.configuration.preemptive.iter().position(|trigger| {
+        let configuration = Arc::clone(&self.configuration);
+        for trigger in &configuration.preemptive {
+            let is_it = |event: &Event| {
                 (trigger.operator, trigger.kind, &trigger.name.text)
                     == (event.key.0, event.key.1, &event.key.2)
-            })
-        };
-        let first = (0..self.preemptive.len()).min_by_key(|i| priority(&self.preemptive[*i]));
-        if let Some(first) = first {
-            self.aborted = self.aborted.saturating_add(u32::from(self.posted.is_some()));
-            self.posted = None;
-            self.deadline = None;
-            return Some(self.preemptive.remove(first));
+            };
+            // What the environment raises comes before what peers ask for.
+            let raised = self.preemptive.iter().position(is_it);
+            let raised = raised.map(|index| self.preemptive.remove(index));
+            if let Some(event) = raised.or_else(|| self.next_urgent(&trigger.name.text)) {
+                self.aborted = self.aborted.saturating_add(u32::from(self.posted.is_some()));
+                self.posted = None;
+                self.deadline = None;
+                return Some(event);
+            }
         }
         if let Some(event) = self.posted.take() {
             let overdue = self

@@ -113,7 +113,10 @@ fn belief(predicate: &Predicate, configuration: &Configuration, agent: Option<&A
         let peers = message.senders.iter().filter_map(|peer| configuration.peers.get(*peer));
         let peers = listed(&peers.map(|peer| peer.text.as_str()).collect());
         let what = if message.performative == Performative::Tell { "tell" } else { "ask for" };
-        facts.push(format!("the peers that may {what} it are {peers}"));
+        let preempts = message.performative == Performative::Achieve
+            && configuration.preemptive.iter().any(|other| other.name.text == *name);
+        let how = if preempts { ", which pre-empts what is posted" } else { "" };
+        facts.push(format!("the peers that may {what} it are {peers}{how}"));
     }
     for event in configuration.triggerables.iter().filter(|event| event.name.text == *name) {
         let first = configuration.preemptive.iter().any(|other| {

@@ -141,9 +141,8 @@ pub fn in_plan<'a>(plan: &'a Plan, visit: &mut impl FnMut(Occurrence<'a>)) {
 fn in_atom<'a>(atom: &'a Atom, usage: Usage, visit: &mut impl FnMut(Occurrence<'a>)) {
     visit(Occurrence { name: &atom.name, meaning: Meaning::Declared, usage });
     atom.arguments.iter().for_each(|argument| in_expression(argument, visit));
-    if let Some(source) = &atom.source {
-        in_expression(source, visit);
-    }
+    let annotations = atom.source.iter().chain(&atom.age);
+    annotations.for_each(|annotation| in_expression(annotation, visit));
 }
 
 fn in_variable<'a>(name: &'a Name, visit: &mut impl FnMut(Occurrence<'a>)) {
@@ -232,6 +231,10 @@ pub fn in_configuration<'a>(
         at(&property.name, Meaning::Property, Usage::Declaration);
         for name in promised(&property.formula) {
             at(name, counted(name), Usage::Listed);
+        }
+        let events = property.formula.events().into_iter();
+        for peer in events.filter_map(|event| event.source.as_ref()) {
+            at(peer, Meaning::Declared, Usage::Listed);
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::messages;
 use super::plans::{believed, given, own, percept, same, values_of};
+use crate::configuration::ExternalTrigger;
 use crate::program::{Belief, External, HandlerId, Program, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
@@ -87,15 +88,20 @@ pub(crate) fn perceived(program: &Program) -> impl Iterator<Item = (&Belief, Han
     })
 }
 
-/// Pre-empting events with their numbers, in the order of service.
-pub(crate) fn preempting(program: &Program) -> impl Iterator<Item = (usize, &External)> {
-    program.configuration.preemptive.iter().filter_map(|trigger| {
-        program.external.iter().enumerate().find(|(_, external)| {
-            (external.operator, external.kind, external.name.as_str())
-                == (trigger.operator, trigger.kind, trigger.name.text.as_str())
-        })
+/// The pre-empting event that the environment raises, and its number, if it raises this one.
+pub(crate) fn preempting<'a>(
+    program: &'a Program,
+    trigger: &ExternalTrigger,
+) -> Option<(usize, &'a External)> {
+    program.external.iter().enumerate().find(|(_, external)| {
+        (external.operator, external.kind, external.name.as_str())
+            == (trigger.operator, trigger.kind, trigger.name.text.as_str())
     })
 }
+
+/// What a pre-empting event takes back.
+const ABORT: &str = "if (plain.posted != 0 && plain.aborted < UINT32_MAX) plain.aborted++; \
+    plain.posted = 0; plain.limited = 0;";
 
 /// The functions that plans call to post goals.
 pub(super) fn posting(program: &Program) -> String {
@@ -174,19 +180,21 @@ pub(super) fn step(program: &Program) -> String {
     text.push_str(
         "/* Serves the next event; false if that only changed a belief. */\nstatic bool plain_serve(void)\n{\n",
     );
-    for (number, external) in preempting(program) {
-        let values = event(external, number, "");
-        let run = external.handler.map(|handler| {
-            let values = own(program, handler, values.clone());
-            format!("plain_end(plain_run_{}({values}));", handler.0)
-        });
-        _ = writeln!(
-            text,
-            "    if (plain.pending_{number}) {{\n        plain.pending_{number} = false;\n        \
-             if (plain.posted != 0 && plain.aborted < UINT32_MAX) plain.aborted++;\n        \
-             plain.posted = 0;\n        plain.limited = 0;\n        {}\n        return true;\n    }}",
-            run.unwrap_or_default()
-        );
+    for trigger in &program.configuration.preemptive {
+        if let Some((number, external)) = preempting(program, trigger) {
+            let values = event(external, number, "");
+            let run = external.handler.map(|handler| {
+                let values = own(program, handler, values.clone());
+                format!("plain_end(plain_run_{}({values}));", handler.0)
+            });
+            _ = writeln!(
+                text,
+                "    if (plain.pending_{number}) {{\n        plain.pending_{number} = false;\n        \
+                 {ABORT}\n        {}\n        return true;\n    }}",
+                run.unwrap_or_default()
+            );
+        }
+        text.push_str(&messages::preempt(program, &trigger.name.text, ABORT));
     }
     posted(&mut text, program);
     for (belief, handler) in perceived(program) {
@@ -424,7 +432,11 @@ fn constants(values: &[Value]) -> String {
     let texts = values.iter().map(|value| match value {
         Value::Constant(text, _) => text.as_str(),
         Value::Me => "plain.me",
-        Value::Variable(_) | Value::Call(_) | Value::Negate(_) | Value::Arithmetic(_) => {
+        Value::Variable(_)
+        | Value::ToldAt(_)
+        | Value::Call(_)
+        | Value::Negate(_)
+        | Value::Arithmetic(_) => {
             unreachable!("analysis lets only constants into initial beliefs and goals")
         }
     });

@@ -1,6 +1,7 @@
 //! Messages between agents in the plain translation: lists for goals that peers ask for, and a mark for each belief that
 //! one of them has changed.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::plans::{believed, given, percept, same, values_of};
@@ -20,12 +21,27 @@ fn types<'a>(program: &'a Program, asked: &Asked) -> &'a [CType] {
     &types[..types.len() - 1]
 }
 
+/// Whose turn it is among those who ask, and among those who tell.
+pub(crate) const TURNS: [&str; 2] = ["asked_turn", "told_turn"];
+
+/// These, and whose turn it is for each goal that pre-empts.
+fn turns(program: &Program) -> Vec<String> {
+    let urgent: BTreeSet<&str> = (program.asked.iter())
+        .filter(|asked| is_urgent(program, asked))
+        .map(|asked| asked.name.as_str())
+        .collect();
+    TURNS.into_iter().map(str::to_owned).chain(urgent.into_iter().map(urgent_turn)).collect()
+}
+
 pub(super) fn state(program: &Program) -> String {
     let mut text = String::new();
     if !program.has_peers() {
         return text;
     }
-    text.push_str("    int me;\n    int asked_turn;\n    int told_turn;\n");
+    text.push_str("    int me;\n");
+    for turn in turns(program) {
+        _ = writeln!(text, "    int {turn};");
+    }
     for (index, asked) in program.asked.iter().enumerate() {
         _ = writeln!(text, "    int asked_{index};");
         for (argument, ctype) in types(program, asked).iter().enumerate() {
@@ -35,6 +51,11 @@ pub(super) fn state(program: &Program) -> String {
     for (index, _) in noticed(program) {
         _ = writeln!(text, "    bool told_{index};");
     }
+    for told in program.told.iter().filter(|told| told.timed) {
+        if let Some((_, time)) = &program.clock {
+            _ = writeln!(text, "    {} told_at_{};", time.name, program.belief(told.belief).name);
+        }
+    }
     text
 }
 
@@ -42,25 +63,41 @@ fn with_sender(values: &str, sender: usize) -> String {
     if values.is_empty() { sender.to_string() } else { format!("{values}, {sender}") }
 }
 
-/// Serves what peers ask for, then what they told.
-pub(super) fn serve(program: &Program) -> String {
+/// Begins to ask each peer, in turn.
+fn each(text: &mut String, program: &Program, turn: &str) {
+    let peers = program.configuration.peers.len();
+    _ = writeln!(
+        text,
+        "    for (int k = 0; k < {peers}; k++) {{\n        int sender = (plain.{turn} + k) % {peers};"
+    );
+}
+
+fn is_urgent(program: &Program, asked: &Asked) -> bool {
+    program.configuration.preemptive.iter().any(|trigger| trigger.name.text == asked.name)
+}
+
+fn urgent_turn(goal: &str) -> String {
+    format!("urgent_turn_{goal}")
+}
+
+/// Serves this goal, which pre-empts, if a peer asks for it.
+pub(super) fn preempt(program: &Program, goal: &str, abort: &str) -> String {
+    ask(program, &urgent_turn(goal), abort, |asked| asked.name == goal)
+}
+
+/// Serves what peers ask for, if it is such a goal.
+fn ask(program: &Program, turn: &str, first: &str, is_such: impl Fn(&Asked) -> bool) -> String {
     let mut text = String::new();
     let peers = program.configuration.peers.len();
-    let each = |text: &mut String, turn: &str| {
-        _ = writeln!(
-            text,
-            "    for (int k = 0; k < {peers}; k++) {{\n        int sender = (plain.{turn} + k) % {peers};"
-        );
-    };
-    if !program.asked.is_empty() {
-        each(&mut text, "asked_turn");
-    }
-    for (index, asked) in program.asked.iter().enumerate() {
+    for (index, asked) in program.asked.iter().enumerate().filter(|(_, asked)| is_such(asked)) {
+        if text.is_empty() {
+            each(&mut text, program, turn);
+        }
         let types = types(program, asked);
         _ = writeln!(
             text,
-            "        if (sender == {} && plain.asked_{index} > 0) {{\n            \
-             plain.asked_turn = (sender + 1) % {peers};\n            plain.asked_{index}--;",
+            "        if (sender == {} && plain.asked_{index} > 0) {{\n            {first}\n            \
+             plain.{turn} = (sender + 1) % {peers};\n            plain.asked_{index}--;",
             asked.sender
         );
         for (argument, ctype) in types.iter().enumerate() {
@@ -79,11 +116,18 @@ pub(super) fn serve(program: &Program) -> String {
             asked.handler.0
         );
     }
-    if !program.asked.is_empty() {
+    if !text.is_empty() {
         text.push_str("    }\n");
     }
+    text
+}
+
+/// Serves what peers ask for without pre-empting, then what they told.
+pub(super) fn serve(program: &Program) -> String {
+    let mut text = ask(program, TURNS[0], "", |asked| !is_urgent(program, asked));
+    let peers = program.configuration.peers.len();
     if noticed(program).next().is_some() {
-        each(&mut text, "told_turn");
+        each(&mut text, program, TURNS[1]);
     }
     for (index, told) in noticed(program) {
         let belief = program.belief(told.belief);
@@ -159,6 +203,10 @@ fn tell(text: &mut String, program: &Program, message: &Message) {
             }
             _ = writeln!(text, "        {place} = a{argument};");
         }
+        if let Some((clock, _)) = program.clock.as_ref().filter(|_| told.timed) {
+            let name = &belief.name;
+            _ = writeln!(text, "        plain.told_at_{name} = plain_call_{}();", clock.0);
+        }
         _ = writeln!(
             text,
             "        plain.held_{} = true;\n        return true;\n    }}",
@@ -214,7 +262,9 @@ pub(super) fn clear(program: &Program) -> String {
     if !program.has_peers() {
         return text;
     }
-    text.push_str("    plain.asked_turn = 0;\n    plain.told_turn = 0;\n");
+    for turn in turns(program) {
+        _ = writeln!(text, "    plain.{turn} = 0;");
+    }
     for index in 0..program.asked.len() {
         _ = writeln!(text, "    plain.asked_{index} = 0;");
     }

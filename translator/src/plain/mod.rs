@@ -11,6 +11,7 @@ mod plans;
 use std::fmt::Write as _;
 
 pub(crate) use self::cycle::{event_number, goal_number, is_queue, length, perceived, preempting};
+pub(crate) use self::messages::TURNS;
 use crate::program::Program;
 
 /// The declaration of the state `plain`, of type `struct plain_state`.

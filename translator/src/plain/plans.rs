@@ -288,6 +288,7 @@ impl<'a> Function<'a> {
             Value::Variable(VariableId(index)) => format!("v{index}"),
             Value::Constant(text, _) => text.clone(),
             Value::Me => "plain.me".to_owned(),
+            Value::ToldAt(id) => format!("plain.told_at_{}", self.program.belief(*id).name),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.name.clone();
                 let call = self.call(call, label);

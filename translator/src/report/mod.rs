@@ -132,7 +132,8 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
     let deferred = program.deferred.len();
     let room = if settings.queue && deferred > 0 { program.deferred_room } else { deferred };
     figures.push(("deferred goals waiting", at_most(room)));
-    let preemptive = program.external.iter().filter(|external| external.preemptive).count();
+    let preemptive = program.external.iter().filter(|external| external.preemptive).count()
+        + program.asked.iter().filter(|asked| asked.preemptive).count();
     figures.push(("pre-empting events", preemptive.to_string()));
     if program.has_peers() {
         let rooms = program.asked.iter().map(|asked| asked.room).sum();

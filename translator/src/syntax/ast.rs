@@ -31,6 +31,8 @@ pub struct Atom {
     pub arguments: Vec<Expression>,
     /// Who told the belief or asked for the goal: `[source(P)]`.
     pub source: Option<Box<Expression>>,
+    /// How long ago a peer told the belief: `[age(A)]`.
+    pub age: Option<Box<Expression>>,
     /// From the name to the closing parenthesis, or bracket.
     pub span: Span,
 }
@@ -39,7 +41,8 @@ impl Atom {
     /// Visits every variable in it.
     pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         self.arguments.iter().for_each(|argument| argument.for_each_variable(visit));
-        self.source.iter().for_each(|source| source.for_each_variable(visit));
+        let annotations = self.source.iter().chain(&self.age);
+        annotations.for_each(|annotation| annotation.for_each_variable(visit));
     }
 }
 

@@ -69,7 +69,7 @@ impl Statements {
                 Kind::Goal
             }
             Statement::Plan(plan) => {
-                self.plans.push(plan);
+                self.plans.push(*plan);
                 Kind::Plan
             }
             Statement::Unknown => Kind::Unknown,

@@ -16,7 +16,7 @@ pub(super) enum Statement {
     Belief(Atom),
     /// The initial goal, and its place with the `!`.
     Goal(Atom, Span),
-    Plan(Plan),
+    Plan(Box<Plan>),
     /// Text with an error.
     Unknown,
 }
@@ -79,7 +79,9 @@ impl<'a> Parser<'a> {
 
     fn statement(&mut self) -> Parsed<Statement> {
         match self.peek() {
-            TokenKind::Plus | TokenKind::Minus | TokenKind::At => Ok(Statement::Plan(self.plan()?)),
+            TokenKind::Plus | TokenKind::Minus | TokenKind::At => {
+                Ok(Statement::Plan(Box::new(self.plan()?)))
+            }
             TokenKind::Bang => {
                 let start = self.next().span.start;
                 let goal = self.atom(0)?;
@@ -321,16 +323,24 @@ impl<'a> Parser<'a> {
         Ok(Expression::MyName { name, span: start..end })
     }
 
-    /// A name with arguments, and where it comes from: `b(t)[source(P)]`.
+    /// A name with arguments, where it comes from, and how old it is: `b(t)[source(P), age(A)]`.
     pub(super) fn sourced(&mut self, depth: usize) -> Parsed<Atom> {
         let mut atom = self.atom(depth)?;
         if self.take(&TokenKind::LeftBracket) {
-            if !self.take_word("source") {
-                return Err(self.unexpected("`source(peer)`"));
+            if self.take_word("source") {
+                self.expect(&TokenKind::LeftParenthesis, "`(` and a peer")?;
+                atom.source = Some(Box::new(self.argument(depth)?));
+                self.expect(&TokenKind::RightParenthesis, "`)`")?;
             }
-            self.expect(&TokenKind::LeftParenthesis, "`(` and a peer")?;
-            atom.source = Some(Box::new(self.argument(depth)?));
-            self.expect(&TokenKind::RightParenthesis, "`)`")?;
+            if atom.source.is_none() || self.take(&TokenKind::Comma) {
+                if !self.take_word("age") {
+                    let known = ["`source(peer)` or `age(milliseconds)`", "`age(milliseconds)`"];
+                    return Err(self.unexpected(known[usize::from(atom.source.is_some())]));
+                }
+                self.expect(&TokenKind::LeftParenthesis, "`(` and a time in milliseconds")?;
+                atom.age = Some(Box::new(self.argument(depth)?));
+                self.expect(&TokenKind::RightParenthesis, "`)`")?;
+            }
             atom.span.end = self.expect(&TokenKind::RightBracket, "`]`")?.end;
         }
         Ok(atom)
@@ -368,7 +378,7 @@ impl<'a> Parser<'a> {
             end = self.expect(&TokenKind::RightParenthesis, "`,` or `)`")?.end;
         }
         let span = name.span.start..end;
-        Ok(Atom { name, arguments, source: None, span })
+        Ok(Atom { name, arguments, source: None, age: None, span })
     }
 
     /// The current token as a name; the caller has checked its kind.

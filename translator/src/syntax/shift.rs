@@ -70,6 +70,7 @@ impl Shift for Atom {
         self.name.shift(bytes);
         self.arguments.shift(bytes);
         self.source.shift(bytes);
+        self.age.shift(bytes);
         self.span.shift(bytes);
     }
 }

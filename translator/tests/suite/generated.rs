@@ -28,8 +28,13 @@ fn a_whole_agent_as_c_and_rust() {
 
 /// What a program in Rust prints that uses the bindings of an agent.
 fn bound(case: &Case, main: &str) -> String {
+    bound_with("", case, main)
+}
+
+fn bound_with(settings: &str, case: &Case, main: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let translation = case.translate("instance = context; rust = bindings.rs;").unwrap();
+    let settings = format!("{settings} instance = context; rust = bindings.rs;");
+    let translation = case.translate(&settings).unwrap();
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
@@ -405,4 +410,48 @@ proptest! {
         let fixed = parse_configuration("lamp.conf", &LAMP.configuration("")).unwrap();
         let _ = translate(&fixed, &words.join(" "));
     }
+}
+
+const AGED: Case = Case {
+    basics: "int64_t now(void); void seen(int64_t);",
+    types: "go(void);",
+    sections: "peers { leader, wingman }; messages { tell at(int) from any; tell low from any; };
+        triggerables { +!go; };",
+    agent: "+!go : at(_)[source(leader), age(A)] & low[source(_)] <- seen(A).",
+};
+
+const AGED_MAIN: &str = r#"
+mod bindings { include!("bindings.rs"); }
+use bindings::{Agent, Beliefs, Environment, Peer};
+struct World(i64);
+impl Environment for World {
+    fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
+    fn now(&mut self) -> i64 { if self.0 == 99 { panic!("no time") } self.0 += 7; self.0 }
+    fn seen(&mut self, age: i64) { println!("seen {age}"); }
+}
+fn main() {
+    let mut agent = Agent::new(Peer::Wingman);
+    let mut world = World(0);
+    println!("{}", agent.receive_tell_at(&mut world, Peer::Wingman as u8, 1));
+    println!("{}", agent.receive_tell_at(&mut world, Peer::Leader as u8, 4));
+    println!("{} {}", agent.receive_tell_low(Peer::Leader as u8), agent.achieve_go());
+    agent.next_step(&mut world);
+    println!("{}", world.0);
+    world.0 = 99;
+    let mut tell = || agent.receive_tell_at(&mut world, Peer::Leader as u8, 4);
+    let tell = std::panic::AssertUnwindSafe(&mut tell);
+    println!("{}", std::panic::catch_unwind(tell).is_err());
+}
+"#;
+
+/// The environment is lent to C where it asks for the time, also when a message arrives.
+#[test]
+fn the_age_of_what_is_told_is_compiled_and_bound() {
+    let printed = bound_with("clock = now;", &AGED, AGED_MAIN);
+    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(words, "false true true true seen 7 14 true");
+    // Only where it is asked for.
+    let translation = AGED.translate("clock = now;").unwrap();
+    let kept = translation.files[0].text.matches("_told_at = now()").count();
+    assert_eq!(kept, 1, "{}", translation.files[0].text);
 }

@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use translator::system::parse_system;
 use translator::{Translation, format, obligations, parse_configuration, translate};
 
 use crate::harness::run_program;
@@ -104,6 +105,10 @@ fn every_example_of_the_guide_does_what_it_says() {
             }
             // Output of `asl2c` is tested in that crate.
             "sh" | "console" | "session" => {}
+            "system" => {
+                assert_eq!(parse_system("a.system", &content).unwrap().agents().len(), 2);
+                checked += 1;
+            }
             "properties" => {
                 let parsed = parse_configuration("a.conf", &format!("{DRONE}{content}")).unwrap();
                 let agent = "+!land <- sendLand. +!takeOff <- sendTakeOff; sendHover; sendStandby.";

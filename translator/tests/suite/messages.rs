@@ -24,12 +24,14 @@ const COMMANDS: usize = 60;
 /// Contexts are refused that have more ways to choose who told their beliefs.
 const MOST_WAYS: usize = 64;
 const PEERS: [&str; 4] = ["ann", "bob", "cid", "dee"];
+/// What the clock may show: the time between some of them is none.
+const TIMES: [i32; 8] = [0, 1, 2, 3, 4, 5, i32::MAX, i32::MIN];
 /// The number of nobody.
 const STRANGER: usize = 200;
 
 /// What the environment offers; all functions print their call.
 const BASICS: &str = "void act(int); void who(peer); void both(int, peer); bool even(int); bool odd(peer); \
-    int next(int); peer other(peer);";
+    int next(int); peer other(peer); int now(void);";
 /// The same in C.
 const PRELUDE: &str = r#"
 #include <stdio.h>
@@ -41,6 +43,8 @@ bool even(int x) { printf("even %d\n", x); return (x % 2) == 0; }
 bool odd(peer_t x) { printf("odd %d\n", (int)x); return (x % 2U) == 1U; }
 int next(int x) { printf("next %d\n", x); return (x == 3) ? 0 : ((x < 3) ? (x + 1) : 3); }
 peer_t other(peer_t x) { printf("other %d\n", (int)x); return (x == 0U) ? 1U : 0U; }
+static int clock_ms = 0;
+int now(void) { printf("now\n"); return clock_ms; }
 static void answer(bool yes) { printf("%s\n", yes ? "yes" : "no"); }
 "#;
 
@@ -118,6 +122,8 @@ enum Command {
     /// `achieve`, `add` or `del`, the belief or goal, and arguments.
     Raise(&'static str, &'static str, Vec<usize>),
     Set(&'static str, Vec<usize>),
+    /// The clock shows this from now on.
+    Time(i32),
     /// Begins again as this peer.
     Init(usize),
     Clear,
@@ -195,9 +201,11 @@ impl Talker {
                     _ = write!(perceived, "{name}; ");
                 }
             }
-            if predicate.is_raised && *is_goal {
-                _ = write!(raised, "+!{name}; ");
-                if choices.chance(15) {
+            if *is_goal {
+                if predicate.is_raised {
+                    _ = write!(raised, "+!{name}; ");
+                }
+                if (predicate.is_raised || !senders.is_empty()) && choices.chance(25) {
                     _ = write!(preemptive, "+!{name}; ");
                 }
             } else if predicate.is_raised {
@@ -208,7 +216,7 @@ impl Talker {
         let inbox = 1 + choices.pick(3);
         format!(
             "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; \
-             {queue} = {inbox}; }};\nbasics {{ {BASICS} }};\ntypes {{ own(int); go(void); }};\n\
+             {queue} = {inbox}; clock = now; }};\nbasics {{ {BASICS} }};\ntypes {{ own(int); go(void); }};\n\
              peers {{ {} }};\nmessages {{ {messages}}};\nsettables {{ {settable}}};\n\
              perceived {{ {perceived}}};\ntriggerables {{ {raised}}};\npreemptive {{ {preemptive}}};\n",
             PEERS[..self.peers].join(", ")
@@ -273,6 +281,7 @@ impl Talker {
                     (false, false) => Command::Raise("add", name, arguments),
                     (false, true) => Command::Raise("del", name, Vec::new()),
                 },
+                5 => Command::Time(choices.of(&TIMES)),
                 19 if choices.chance(30) => Command::Init(choices.pick(self.peers)),
                 19 if choices.chance(40) => Command::Clear,
                 _ => Command::Step,
@@ -419,7 +428,19 @@ impl Plan<'_, '_, '_> {
         if belief.senders.is_empty() || !self.can_search(belief.senders.len() + 1) {
             return format!("own({})", self.patterns(&[Type::Int])[0]);
         }
-        call(belief.name, &self.patterns(&belief.types)) + &self.source(belief)
+        let told = call(belief.name, &self.patterns(&belief.types));
+        let source = self.source(belief);
+        if source.contains("self") || !self.choices.chance(35) {
+            return told + &source;
+        }
+        let age = match self.choices.pick(6) {
+            0..3 => self.fresh(Type::Int),
+            3 => "_".to_owned(),
+            _ => self.value(Type::Int),
+        };
+        let source = source.trim_matches(['[', ']']);
+        let comma = if source.is_empty() { "" } else { ", " };
+        format!("{told}[{source}{comma}age({age})]")
     }
 
     fn condition(&mut self, depth: usize) -> String {
@@ -554,7 +575,8 @@ fn interpreted(mut agent: Interpreter, sequences: &[Vec<Command>]) -> String {
                 _ = writeln!(trace.0, "step {} {} {aborted}", counts.0, counts.1);
             }
             Command::Receive(from, performative, name, arguments) => {
-                let accepted = agent.receive(*from, *performative, name, values(arguments));
+                let accepted =
+                    agent.receive(*from, *performative, name, values(arguments), &mut trace);
                 trace.0.push_str(answer(accepted));
             }
             Command::Raise(verb, name, arguments) => {
@@ -566,6 +588,7 @@ fn interpreted(mut agent: Interpreter, sequences: &[Vec<Command>]) -> String {
                 let accepted = agent.raise(operator, kind, name, values(arguments)).is_ok();
                 trace.0.push_str(answer(accepted));
             }
+            Command::Time(time) => trace.1 = *time,
             Command::Set(name, arguments) => agent.set((*name).to_owned(), values(arguments)),
             Command::Init(me) => {
                 agent.be(*me);
@@ -578,7 +601,7 @@ fn interpreted(mut agent: Interpreter, sequences: &[Vec<Command>]) -> String {
 }
 
 #[derive(Default)]
-struct Trace(String);
+struct Trace(String, i32);
 
 impl Environment for Trace {
     fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
@@ -597,7 +620,8 @@ impl Environment for Trace {
         }
         self.0.push('\n');
         match (name, integers.as_slice()) {
-            ("even" | "odd", [value]) => Some(Value::Bool((value % 2 == 1) == (name == "odd"))),
+            ("even" | "odd", [value]) => Some(Value::Bool((value % 2 != 0) == (name == "odd"))),
+            ("now", _) => Some(Value::Integer(self.1.into())),
             ("next", [value]) => {
                 Some(Value::Integer(if *value == 3 { 0 } else { 3.min(value + 1) }))
             }
@@ -674,6 +698,7 @@ fn script(sequences: &[Vec<Command>], aborted: &str) -> String {
                 _ = writeln!(text, "answer({verb}_{name}({}));", list(arguments));
             }
             Command::Set(name, arguments) => _ = writeln!(text, "set_{name}({});", list(arguments)),
+            Command::Time(time) => _ = writeln!(text, "clock_ms = (int)({time}LL);"),
             Command::Init(me) => _ = writeln!(text, "init({me}); puts(\"init\");"),
             Command::Clear => text.push_str("clear();\n"),
         }

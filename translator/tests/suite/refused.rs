@@ -231,7 +231,7 @@ fn the_configuration_is_checked_too() {
     4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
       |                                                                ^^^^
       |
-      = help: list it in `triggerables` too
+      = help: list it in `triggerables` too, or in `messages` if peers ask for it
 
     error: only goals can pre-empt
      --> agent.conf:4:70
@@ -526,4 +526,60 @@ fn what_is_found_is_data() {
     let error = translator::parse_configuration("a.conf", "colours { };").unwrap_err();
     let codes: Vec<&str> = error.diagnostics().iter().map(|found| found.code).collect();
     assert_eq!(codes, ["unknown-section"]);
+}
+
+/// The messages of rendered errors, with their places.
+fn places(rendered: &str) -> String {
+    let lines = rendered.lines().filter(|line| line.starts_with("error") || line.contains("-->"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn only_goals_with_plans_pre_empt_for_peers() {
+    insta::assert_snapshot!(
+        places(&refused_with("peers { ann, bob }; messages { tell b(int) from any; achieve gi(int) from any; }; preemptive { +b; +!gi; };", "!g. +!g <- act(1).")),
+        @r"
+    error: only goals can pre-empt
+     --> agent.conf:4:96
+    error: no plan for `+!gi`
+     --> agent.conf:4:100
+    "
+    );
+}
+
+#[test]
+fn events_of_peers_are_checked() {
+    let rendered = refused_with(
+        "peers { ann, bob }; messages { tell b(int) from ann; achieve gi(int) from any; tell d(double) from ann; }; triggerables { +!g; };
+properties { p: within(1, +!gi, act); q: within(1, +!gi[source(cid)], act); r: only_after(act, +!g[source(ann)]);
+s: within(1, +b[source(bob)], act, unless -d[source(ann)]); t: within(1, +!gi[source(self)], act, unless +!gi[source(bob)]); };",
+        "+!g <- act(1). +b(_) <- act(1).",
+    );
+    insta::assert_snapshot!(places(&rendered), @r"
+    error: the environment does not raise this
+     --> agent.conf:5:27
+    error: `cid` is not a peer
+     --> agent.conf:5:64
+    error: no peer sends `g`
+     --> agent.conf:5:98
+    error: `bob` never tells `b`
+     --> agent.conf:6:24
+    error: no plan for `+d` or `-d`
+     --> agent.conf:6:43
+    error: `self` is not a peer
+     --> agent.conf:6:86
+    error: no plan for `+!gi`
+     --> agent.conf:6:106
+    ");
+    for (text, expected) in [
+        ("within(1, +!gi[sorce(ann)], act)", "expected `source`, found `sorce`"),
+        ("within(1, +!gi[source(3)], act)", "expected a peer, found `3`"),
+        ("within(1, +!gi[source(ann), act)", "expected `]`, found `,`"),
+    ] {
+        let text = format!(
+            "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; }}; properties {{ p: {text}; }};"
+        );
+        let (_, found) = translator::configuration::parse(&text);
+        assert!(found.iter().any(|found| found.message == expected), "{text}: {found:?}");
+    }
 }

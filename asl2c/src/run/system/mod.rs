@@ -260,7 +260,7 @@ impl<'a> SystemSession<'a> {
         let mut line = self.described(&message);
         let Message { from, to, performative, about, values, .. } = message;
         let from = self.system.members[from].peer;
-        if !self.agents[to].now.agent.receive(from, performative, &about, values) {
+        if !self.agents[to].receive(from, performative, &about, values) {
             line += ", refused";
         }
         shown.push(line);

@@ -1,138 +1,21 @@
-//! The deliberation cycle: posting events, taking the next one, handling it.
+//! The deliberation cycle: taking the next event, handling it.
 
-use super::events::{UNROLLED, else_count, event_name, no_event, run, wrapped};
+use super::events::{UNROLLED, event_name, no_event, run, wrapped};
 use super::messages;
-use super::names::{Names, argument};
+use super::names::Names;
 use super::state::{
-    Ring, Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held,
-    inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
+    Slot, belief_value, external_count, external_name, handler_name, held, inbox_ring, limits,
+    pending, perceived, queued, rings, slot_value,
 };
+use super::turns::{self, urgent_branch};
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
 use crate::syntax::ast::Operator;
 use crate::types::CType;
 
-/// Functions that post an event for the next step or defer a goal.
-pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
-    for id in &program.posted_by_plans {
-        let trigger = handler_name(program, *id);
-        let types = &program.handler(*id).types;
-        writer.line("/* The event of the next step. */");
-        writer.open(format!("static void post_{trigger}({})", names.parameters(types)));
-        store(writer, names, Slot::Posted, &trigger, types, "");
-        writer.line(format!(
-            "{} = {};",
-            names.field("posted"),
-            event_name(names, Slot::Posted, &trigger)
-        ));
-        writer.close("}");
-        writer.line("");
-    }
-    for id in &program.limited {
-        limiting(writer, program, names, *id);
-    }
-    for id in &program.deferred {
-        deferring(writer, program, names, *id);
-    }
-}
-
-/// The function that sets the deadline of a goal.
-fn limiting(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
-    let Some((_, time)) = limits(program) else { return };
-    let trigger = handler_name(program, id);
-    let kept = limited_types(program, id);
-    let mut types = kept.to_vec();
-    types.push(time.clone());
-    let limited = names.field("limited");
-    let event = event_name(names, Slot::Deadline, &trigger);
-    writer.line(
-        "/* Sets the deadline of a goal. A goal that posts itself again keeps its deadline. */",
-    );
-    writer.open(format!("static void limit_{trigger}({})", names.parameters(&types)));
-    writer.open(format!("if ({limited} != {event})"));
-    store(writer, names, Slot::Deadline, &trigger, kept, "");
-    writer.line(format!("{} = {};", names.field("deadline"), argument(kept.len())));
-    writer.line(format!("{limited} = {event};"));
-    writer.close("}");
-    writer.close("}");
-    writer.line("");
-}
-
-fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
-    let trigger = handler_name(program, id);
-    let types = &program.handler(id).types;
-    let Some(ring) = deferred_ring(program) else { return };
-    if program.configuration.settings.queue {
-        queueing(writer, program, names, &trigger, types, &ring);
-        return;
-    }
-    let flag = names.field(&pending(Slot::Deferred, &trigger));
-    writer.line("/* One slot for this goal: posted again, it keeps its place. */");
-    writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
-    store(writer, names, Slot::Deferred, &trigger, types, "");
-    writer.open(format!("if (!{flag})"));
-    let first = names.field(&ring.field("first"));
-    let count = names.field(&ring.field("count"));
-    let slot = wrapped(&format!("{first} + {count}"), ring.length);
-    writer.line(format!("const uint32_t slot = {slot};"));
-    writer.line(format!("{flag} = true;"));
-    writer.line(format!(
-        "{}[slot] = {};",
-        names.field(&ring.field("queue")),
-        event_name(names, Slot::Deferred, &trigger)
-    ));
-    writer.line(format!("{count} = {count} + 1U;"));
-    writer.close("}");
-    writer.close("}");
-    writer.line("");
-}
-
-/// The function that posts a goal with `!!` if all goals share one queue, each in its own element.
-fn queueing(
-    writer: &mut Writer,
-    program: &Program,
-    names: &Names,
-    trigger: &str,
-    types: &[CType],
-    ring: &Ring,
-) {
-    let field = |part: &str| names.field(&ring.field(part));
-    let (first, count) = (field("first"), field("count"));
-    let external = names.field(external_count(program));
-    writer.line("/* Appends the goal. One that does not fit is dropped and counted. */");
-    writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
-    writer.open(format!("if (({count} - {external}) < {}U)", program.deferred_room));
-    let slot = wrapped(&format!("{first} + {count}"), ring.length);
-    writer.line(format!("const uint32_t slot = {slot};"));
-    writer.line("");
-    store(writer, names, Slot::Deferred, trigger, types, "[slot]");
-    let event = event_name(names, Slot::Deferred, trigger);
-    writer.line(format!("{}[slot] = {event};", field("queue")));
-    writer.line(format!("{count} = {count} + 1U;"));
-    writer.close("}");
-    else_count(writer, &names.field("unhandled"));
-    writer.close("}");
-    writer.line("");
-}
-
-/// Stores a function's arguments in the slot of an event.
-pub(super) fn store(
-    writer: &mut Writer,
-    names: &Names,
-    slot: Slot,
-    trigger: &str,
-    types: &[CType],
-    index: &str,
-) {
-    for number in 0..types.len() {
-        let field = names.field(&slot_value(slot, trigger, number));
-        writer.line(format!("{field}{index} = {};", argument(number)));
-    }
-}
-
 /// `take_event`, `handle_event` and `next_step`.
 pub(super) fn cycle(writer: &mut Writer, program: &Program, names: &Names) {
-    messages::take(writer, program, names);
+    turns::take(writer, program, names);
     take_event(writer, program, names);
     handle_event(writer, program, names);
     next_step(writer, program, names);
@@ -142,20 +25,26 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
     let (posted, aborted) = (names.field("posted"), names.field("aborted"));
     let none = no_event(names);
     let mut branches: Vec<(String, Vec<String>)> = Vec::new();
-    for external in program.external.iter().filter(|external| external.preemptive) {
-        let trigger = external_name(external);
-        let flag = names.field(&pending(Slot::Preemptive, &trigger));
-        let mut taken = vec![
-            format!("event = {};", event_name(names, Slot::Preemptive, &trigger)),
-            format!("{flag} = false;"),
-            format!("if (({posted} != {none}) && ({aborted} < UINT32_MAX))"),
-            "{".to_owned(),
-            format!("    {aborted} = {aborted} + 1U;"),
-            "}".to_owned(),
-            format!("{posted} = {none};"),
-        ];
-        taken.extend(limits(program).map(|_| format!("{} = {none};", names.field("limited"))));
-        branches.push((flag, taken));
+    let mut aborts = vec![
+        format!("if (({posted} != {none}) && ({aborted} < UINT32_MAX))"),
+        "{".to_owned(),
+        format!("    {aborted} = {aborted} + 1U;"),
+        "}".to_owned(),
+        format!("{posted} = {none};"),
+    ];
+    aborts.extend(limits(program).map(|_| format!("{} = {none};", names.field("limited"))));
+    for preempting in &program.configuration.preemptive {
+        let raised = program.raised(preempting).map(|(_, external)| {
+            let trigger = external_name(external);
+            let flag = names.field(&pending(Slot::Preemptive, &trigger));
+            let event = event_name(names, Slot::Preemptive, &trigger);
+            (flag.clone(), vec![format!("event = {event};"), format!("{flag} = false;")])
+        });
+        let asked = urgent_branch(program, names, &preempting.name.text);
+        branches.extend(raised.into_iter().chain(asked).map(|(waits, mut taken)| {
+            taken.extend_from_slice(&aborts);
+            (waits, taken)
+        }));
     }
     let mut taken = vec![format!("event = {posted};"), format!("{posted} = {none};")];
     if let Some((clock, ctype)) = limits(program) {
@@ -186,7 +75,7 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
         ];
         branches.push((flag, taken));
     }
-    branches.extend(messages::branches(program, names));
+    branches.extend(turns::branches(program, names));
     let inbox = inbox_ring(program).map(|ring| ring.field("queue"));
     for ring in rings(program) {
         let field = |part: &str| names.field(&ring.field(part));

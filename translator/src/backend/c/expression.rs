@@ -5,7 +5,7 @@
 
 use super::emitter::PlanEmitter;
 use super::spelling::{conjunction, parenthesised, symbol};
-use super::state::{belief_value, held};
+use super::state::{belief_value, held, told_at};
 use crate::program::{
     Alternatives, BeliefId, Call, Condition, Operation, Pattern, Value, VariableId,
 };
@@ -227,6 +227,7 @@ impl PlanEmitter<'_> {
             Value::Variable(id) => self.plan.variables[id.0].name.clone(),
             Value::Constant(text, _) => text.clone(),
             Value::Me => self.names.field("me"),
+            Value::ToldAt(id) => self.names.field(&told_at(&self.program.belief(*id).name)),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.clone();
                 let text = self.call(call);
@@ -282,5 +283,5 @@ impl PlanEmitter<'_> {
 
 /// Whether a value needs no preceding statement.
 fn is_plain(value: &Value) -> bool {
-    matches!(value, Value::Variable(_) | Value::Constant(..) | Value::Me)
+    matches!(value, Value::Variable(_) | Value::Constant(..) | Value::Me | Value::ToldAt(_))
 }

@@ -5,6 +5,7 @@
 //! the invariant, and makes one transition; `base()` starts in the state after an `init()` in any state, so that it may be
 //! called again at any time. Assertions that hold in both hold after any number of transitions.
 
+mod hearing;
 mod invariant;
 mod moment;
 
@@ -287,7 +288,9 @@ impl Builder<'_> {
 
     /// Whether such an event is pending, as a C expression.
     fn waits(&self, event: &ExternalTrigger) -> String {
-        let Some((_, external)) = self.program.raised(event) else { return "false".to_owned() };
+        let Some((_, external)) = self.program.raised(event) else {
+            return self.waits_to_be_heard(event);
+        };
         let trigger = external_name(external);
         if external.preemptive {
             return format!("self->{}", pending(Slot::Preemptive, &trigger));
@@ -313,6 +316,7 @@ impl Builder<'_> {
             let made = self.names.call(&name, arguments);
             match call {
                 Call::Raise(_, external) => self.raise(writer, external, &made),
+                Call::Receive(function) => self.hear(writer, function, &made),
                 _ => writer.line(format!("{made};")),
             }
             if let Call::Clear = call {
@@ -333,9 +337,14 @@ impl Builder<'_> {
 
     fn raise(&self, writer: &mut Writer, external: &External, made: &str) {
         writer.open(format!("if ({made})"));
-        let is_this = |event: &ExternalTrigger| {
+        self.happens(writer, |event| {
             self.program.raised(event).is_some_and(|(_, other)| std::ptr::eq(other, external))
-        };
+        });
+        writer.close("}");
+    }
+
+    /// What an accepted event does to each property.
+    fn happens(&self, writer: &mut Writer, is_this: impl Fn(&ExternalTrigger) -> bool) {
         for property in self.properties() {
             let name = &property.name.text;
             match &property.formula {
@@ -353,7 +362,6 @@ impl Builder<'_> {
                 _ => {}
             }
         }
-        writer.close("}");
     }
 
     /// The call of `init()` for `agent`, as this peer if there are peers.
@@ -409,7 +417,11 @@ impl Builder<'_> {
         writer.line("/* A complete execution, for tools that analyse loops. */");
         writer.open("int main(void)");
         writer.line(format!("{state} agent;"));
-        writer.line(format!("{};", self.init("0U")));
+        any_peer(writer);
+        if peers > 0 {
+            record(writer, "init", &["me".to_owned()]);
+        }
+        writer.line(format!("{};", self.init("me")));
         writer.open(format!("while ({})", anything("bool")));
         writer.line("transition(&agent);");
         writer.close("}");

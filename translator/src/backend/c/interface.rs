@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::cycle::store;
 use super::events::{else_count, event_name, no_event, wrapped};
 use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::messages;
 use super::names::{Names, argument, argument_names};
+use super::posting::store;
 use super::spelling::conjunction;
 use super::state::{
     Counter, FieldType, Slot, belief_value, counters, external_count, external_name, handler_name,
@@ -209,6 +209,7 @@ fn constant_text(value: &Value) -> &str {
         Value::Constant(text, _) => text,
         Value::Variable(_)
         | Value::Me
+        | Value::ToldAt(_)
         | Value::Call(_)
         | Value::Negate(_)
         | Value::Arithmetic(_) => {

@@ -1,16 +1,16 @@
-//! Messages between agents: what a peer tells or asks for, and which of it comes next.
+//! Messages between agents: what a peer tells or asks for.
 //!
-//! A belief that peers tell has a slot for each of them; a goal that they ask for, a ring for each of them. Senders are
-//! served in turn, so that none keeps another one waiting.
+//! A belief that peers tell has a slot for each of them; a goal that they ask for, a ring for each of them.
 
-use super::events::{UNROLLED, else_count, event_name, no_event, run, wrapped};
+use super::events::{else_count, event_name, run, wrapped};
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
 use super::said::{
-    TURNS, asked_name, asked_types, has_values, noticed, ring_field, ring_parts, told_name,
+    TOLD_TURN, asked_name, asked_turns, asked_types, has_values, noticed, ring_field, ring_parts,
+    told_name,
 };
 use super::spelling::conjunction;
-use super::state::{Slot, belief_value, held, pending, slot_value};
+use super::state::{Slot, belief_value, held, pending, slot_value, told_at};
 use crate::backend::writer::Writer;
 use crate::program::{Asked, Belief, Program, Told};
 use crate::syntax::ast::Performative;
@@ -25,6 +25,10 @@ pub(crate) fn received(program: &Program) -> Vec<Received> {
             performative,
             about: message.name.text.clone(),
             types: message.said(performative),
+            preempts: performative == Performative::Achieve
+                && program.urgent().any(|goal| goal == message.name.text),
+            asks_time: performative == Performative::Tell
+                && program.told.iter().any(|told| told.timed && told.name == message.name.text),
         })
         .collect()
 }
@@ -38,14 +42,24 @@ pub(crate) struct Received {
     pub(crate) about: String,
     /// The types of its arguments: the sender, and what it says.
     pub(crate) types: Vec<CType>,
+    /// Whether it aborts the pending event.
+    pub(crate) preempts: bool,
+    /// Whether it calls the clock.
+    pub(crate) asks_time: bool,
 }
 
 impl Received {
     /// What it does.
     pub(crate) fn comment(&self) -> &'static str {
         match self.performative {
+            Performative::Tell if self.asks_time => {
+                "Believed at once; calls the clock. Returns whether this peer may tell it."
+            }
             Performative::Tell => "Believed at once. Returns whether this peer may tell it.",
             Performative::Untell => "Believed no more. Returns whether this peer may tell it.",
+            Performative::Achieve if self.preempts => {
+                "Returns whether the goal of this peer was accepted; it comes before whatever is running."
+            }
             Performative::Achieve => "Returns whether the goal of this peer was accepted.",
             Performative::Unachieve => {
                 "Forgets what this peer has asked for. Returns whether it may ask for it."
@@ -128,18 +142,18 @@ pub(super) fn receive(
     }
 }
 
-fn case(writer: &mut Writer, program: &Program, sender: usize) {
+pub(super) fn case(writer: &mut Writer, program: &Program, sender: usize) {
     writer.line(format!("case {}:", program.peer(sender)));
     writer.indent();
 }
 
-fn end_case(writer: &mut Writer) {
+pub(super) fn end_case(writer: &mut Writer) {
     writer.line("break;");
     writer.dedent();
 }
 
 /// The end of a switch over peers.
-fn default_case(writer: &mut Writer, comment: &str) {
+pub(super) fn default_case(writer: &mut Writer, comment: &str) {
     writer.line("default:");
     writer.indent();
     writer.line(comment);
@@ -149,7 +163,7 @@ fn default_case(writer: &mut Writer, comment: &str) {
     writer.line("}");
 }
 
-fn changed_flag(program: &Program, names: &Names, told: &Told) -> String {
+pub(super) fn changed_flag(program: &Program, names: &Names, told: &Told) -> String {
     names.field(&pending(Slot::Told, told_name(program, told)))
 }
 
@@ -173,6 +187,11 @@ fn tell(writer: &mut Writer, program: &Program, names: &Names, helpers: &mut Hel
     }
     for index in 0..belief.types.len() {
         writer.line(format!("{} = {};", field(index), argument(index + 1)));
+    }
+    if let Some((clock, _)) = program.timing(told) {
+        let clock = names.action(program.basic(*clock));
+        let (place, arguments) = (told_at(&belief.name), names.action_arguments(&[]));
+        writer.line(format!("{} = {clock}({arguments});", names.field(&place)));
     }
     writer.line(format!("{held} = true;"));
     writer.line("accepted = true;");
@@ -206,158 +225,6 @@ fn achieve(writer: &mut Writer, program: &Program, names: &Names, asked: &Asked)
     writer.line("accepted = true;");
     writer.close("}");
     else_count(writer, &names.field("refused"));
-}
-
-/// Whether a peer waits to be heard, as expressions: with a goal, and with a belief.
-fn waiting(program: &Program, names: &Names) -> [Vec<String>; 2] {
-    let asked = program.asked.iter();
-    let count = |asked| names.field(&ring_field(program, asked, "count"));
-    [
-        asked.map(|asked| format!("({} > 0U)", count(asked))).collect(),
-        noticed(program).map(|told| changed_flag(program, names, told)).collect(),
-    ]
-}
-
-/// Whether a peer waits to be heard, as expressions.
-pub(super) fn waits(program: &Program, names: &Names) -> Vec<String> {
-    waiting(program, names).concat()
-}
-
-/// Assignments after which no peer waits to be heard.
-pub(super) fn silence(program: &Program, names: &Names) -> Vec<String> {
-    let asked = program.asked.iter();
-    let asked =
-        asked.map(|asked| format!("{} = 0U", names.field(&ring_field(program, asked, "count"))));
-    let told =
-        noticed(program).map(|told| format!("{} = false", changed_flag(program, names, told)));
-    asked.chain(told).collect()
-}
-
-/// What comes next: whether something of a kind waits, and the call that takes it.
-pub(super) fn branches(program: &Program, names: &Names) -> Vec<(String, Vec<String>)> {
-    let [asked, told] = waiting(program, names);
-    let kinds = [(asked, "take_asked"), (told, "take_told")].into_iter();
-    kinds
-        .filter(|(waiting, _)| !waiting.is_empty())
-        .map(|(waiting, function)| {
-            let taken = format!("event = {function}({});", names.arguments(std::iter::empty()));
-            (waiting.join(" || "), vec![taken])
-        })
-        .collect()
-}
-
-/// The functions that take what the next sender asks for or tells.
-pub(super) fn take(writer: &mut Writer, program: &Program, names: &Names) {
-    let asked: Vec<(usize, String, Vec<String>)> = (program.asked.iter())
-        .map(|asked| {
-            let field = |part: &str| names.field(&ring_field(program, asked, part));
-            let (first, count) = (field("first"), field("count"));
-            let name = asked_name(program, asked);
-            let mut lines = vec![format!("event = {};", event_name(names, Slot::Asked, &name))];
-            if !asked_types(program, asked).is_empty() {
-                lines.extend([
-                    format!("{} = {first};", names.field("asked_taken")),
-                    format!("{first} = {};", wrapped(&format!("{first} + 1U"), asked.room)),
-                ]);
-            }
-            lines.push(format!("{count} = {count} - 1U;"));
-            (asked.sender, format!("{count} > 0U"), lines)
-        })
-        .collect();
-    let told: Vec<(usize, String, Vec<String>)> = noticed(program)
-        .map(|told| {
-            let flag = changed_flag(program, names, told);
-            let event = event_name(names, Slot::Told, told_name(program, told));
-            (
-                told.sender,
-                flag.clone(),
-                vec![format!("event = {event};"), format!("{flag} = false;")],
-            )
-        })
-        .collect();
-    let [asked_turn, told_turn] = TURNS;
-    for (function, turn, slots) in
-        [("take_asked", asked_turn, asked), ("take_told", told_turn, told)]
-    {
-        if !slots.is_empty() {
-            take_in_turn(writer, program, names, (function, turn), &slots);
-        }
-    }
-}
-
-fn take_in_turn(
-    writer: &mut Writer,
-    program: &Program,
-    names: &Names,
-    (function, turn): (&str, &str),
-    slots: &[(usize, String, Vec<String>)],
-) {
-    let none: [CType; 0] = [];
-    let peers = program.configuration.peers.len();
-    let (event_type, turn) = (names.interface("event_t"), names.field(turn));
-    let mut parameters = names.state_parameter();
-    parameters.push("uint32_t value".to_owned());
-    writer.line("/* What this peer says, if it says anything. */");
-    writer.open(format!("static {event_type} {function}_from({})", parameters.join(", ")));
-    writer.line(format!("{event_type} event = {};", no_event(names)));
-    writer.line("");
-    writer.line("switch (value)");
-    writer.line("{");
-    writer.indent();
-    for peer in 0..peers {
-        let own: Vec<_> = slots.iter().filter(|(sender, ..)| *sender == peer).collect();
-        if own.is_empty() {
-            continue;
-        }
-        case(writer, program, peer);
-        for (index, (_, condition, lines)) in own.iter().enumerate() {
-            let keyword = if index == 0 { "if" } else { "else if" };
-            writer.open(format!("{keyword} ({condition})"));
-            for line in lines {
-                writer.line(line);
-            }
-            writer.close("}");
-        }
-        if own.len() > 1 {
-            writer.open("else");
-            writer.line("/* It has said nothing. */");
-            writer.close("}");
-        }
-        end_case(writer);
-    }
-    default_case(writer, "/* It says nothing of this kind. */");
-    writer.open(format!("if (event != {})", no_event(names)));
-    writer.line("/* The next time, the one behind it is heard first. */");
-    writer.line(format!("{turn} = (value + 1U) % {peers}U;"));
-    writer.close("}");
-    writer.line("return event;");
-    writer.close("}");
-    writer.line("");
-    let from = |offset: &str| {
-        let value = format!("({turn} + {offset}) % {peers}U");
-        format!("event = {function}_from({});", names.arguments([value]))
-    };
-    writer.line("/* What the peer says whose turn it is, or one behind it. */");
-    writer.open(format!("static {event_type} {function}({})", names.parameters(&none)));
-    writer.line(format!("{event_type} event = {};", no_event(names)));
-    writer.line("");
-    if peers <= UNROLLED {
-        // Without a loop, the compiled code has a longest path.
-        writer.line(from("0U"));
-        for offset in 1..peers {
-            writer.open(format!("if (event == {})", no_event(names)));
-            writer.line(from(&format!("{offset}U")));
-            writer.close("}");
-        }
-    } else {
-        let going_on = format!("(round < {peers}U) && (event == {})", no_event(names));
-        writer.open(format!("for (uint32_t round = 0U; {going_on}; round++)"));
-        writer.line(from("round"));
-        writer.close("}");
-    }
-    writer.line("return event;");
-    writer.close("}");
-    writer.line("");
 }
 
 /// The cases that handle what peers say.
@@ -432,14 +299,13 @@ pub(super) fn forget(writer: &mut Writer, program: &Program, names: &Names) {
     for told in noticed(program) {
         writer.line(format!("{} = false;", changed_flag(program, names, told)));
     }
-    let [asked_turn, told_turn] = TURNS;
-    if !program.asked.is_empty() {
-        writer.line(format!("{} = 0U;", names.field(asked_turn)));
+    for turn in asked_turns(program) {
+        writer.line(format!("{} = 0U;", names.field(&turn)));
     }
     if has_values(program) {
         writer.line(format!("{} = 0U;", names.field("asked_taken")));
     }
     if noticed(program).next().is_some() {
-        writer.line(format!("{} = 0U;", names.field(told_turn)));
+        writer.line(format!("{} = 0U;", names.field(TOLD_TURN)));
     }
 }

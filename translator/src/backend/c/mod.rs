@@ -21,11 +21,13 @@ mod locals;
 mod messages;
 mod names;
 mod plan;
+mod posting;
 mod said;
 mod scripted;
 mod spelling;
 mod state;
 mod trace;
+mod turns;
 
 use self::names::Names;
 use self::state::StateLayout;
@@ -95,7 +97,7 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
     header::private_types(&mut writer, names, layout);
     handlers::prototypes(&mut writer, program, names);
     helpers.emit(&mut writer, &program.configuration.structs);
-    cycle::posting(&mut writer, program, names);
+    posting::posting(&mut writer, program, names);
     let mut text = writer.finish();
     text.push_str(&plans.finish());
     text.push_str(&rest.finish());

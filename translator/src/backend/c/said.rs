@@ -3,8 +3,29 @@
 use crate::program::{Asked, Program, Told};
 use crate::types::CType;
 
-/// The fields that say whose turn it is: among those who ask, and among those who tell.
-pub(super) const TURNS: [&str; 2] = ["asked_turn", "told_turn"];
+/// The field that says whose turn it is among those who ask.
+pub(super) const ASKED_TURN: &str = "asked_turn";
+/// The field that says whose turn it is among those who tell.
+pub(super) const TOLD_TURN: &str = "told_turn";
+
+/// The field that says whose turn it is among those who ask for a goal that pre-empts. Each has its own: with a common one,
+/// a sender of the first goal could always pass the turn to the same sender of the second.
+pub(super) fn urgent_turn(goal: &str) -> String {
+    format!("urgent_turn_{goal}")
+}
+
+/// The fields that say whose turn it is among those who ask.
+pub(super) fn asked_turns(program: &Program) -> Vec<String> {
+    let waits = program.asked.iter().any(|asked| !asked.preemptive);
+    let usual = waits.then(|| ASKED_TURN.to_owned());
+    usual.into_iter().chain(program.urgent().map(urgent_turn)).collect()
+}
+
+/// All fields that say whose turn it is.
+pub(super) fn turns(program: &Program) -> Vec<String> {
+    let told = noticed(program).next().map(|_| TOLD_TURN.to_owned());
+    asked_turns(program).into_iter().chain(told).collect()
+}
 
 /// `at_from_leader`: what one peer says, in names of events and fields.
 pub(super) fn asked_name(program: &Program, asked: &Asked) -> String {

@@ -1,10 +1,11 @@
 //! The layout of the agent's state, one list for the C struct and its Rust mirror.
 
 use super::said::{
-    TURNS, asked_name, asked_types, has_values, noticed, ring_field, ring_parts, told_name,
+    TOLD_TURN, asked_name, asked_turns, asked_types, has_values, noticed, ring_field, ring_parts,
+    told_name,
 };
 use crate::configuration::Instance;
-use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
+use crate::program::{BasicId, Belief, External, HandlerId, Program, Told, trigger_name};
 use crate::syntax::ast::TriggerKind;
 use crate::types::CType;
 
@@ -44,6 +45,9 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
         for (index, ctype) in belief.types.iter().enumerate() {
             let name = belief_value(&belief.name, index);
             layout.field(name, FieldType::Value(ctype.clone()), None);
+        }
+        if let Some((_, time)) = timing(program, belief) {
+            layout.field(told_at(&belief.name), FieldType::Value(time.clone()), None);
         }
     }
     if program.has_peers() {
@@ -99,9 +103,8 @@ impl StateLayout {
     }
 
     fn messages(&mut self, program: &Program) {
-        let [asked_turn, told_turn] = TURNS;
-        if !program.asked.is_empty() {
-            self.field(asked_turn.to_owned(), FieldType::Count, None);
+        for turn in asked_turns(program) {
+            self.field(turn, FieldType::Count, None);
         }
         if has_values(program) {
             self.field("asked_taken".to_owned(), FieldType::Count, None);
@@ -118,7 +121,7 @@ impl StateLayout {
             }
         }
         if noticed(program).next().is_some() {
-            self.field(told_turn.to_owned(), FieldType::Count, None);
+            self.field(TOLD_TURN.to_owned(), FieldType::Count, None);
         }
         for told in noticed(program) {
             let name = told_name(program, told);
@@ -193,7 +196,6 @@ pub(crate) struct Counter {
 
 /// All counters of the agent.
 pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
-    let preempted = program.external.iter().any(|external| external.preemptive);
     let always = [
         Counter {
             name: "unhandled",
@@ -208,7 +210,7 @@ pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
         name: "aborted",
         meaning: "Posted events since the start that a pre-empting one replaced.",
     };
-    always.into_iter().chain(preempted.then_some(aborted))
+    always.into_iter().chain(program.has_preemptive().then_some(aborted))
 }
 
 /// Place of a pending event.
@@ -321,6 +323,17 @@ pub(super) fn held(belief: &str) -> String {
 /// An argument of a belief.
 pub(super) fn belief_value(belief: &str, index: usize) -> String {
     format!("belief_{belief}_{}", index + 1)
+}
+
+/// The time when a belief was told.
+pub(super) fn told_at(belief: &str) -> String {
+    format!("belief_{belief}_told_at")
+}
+
+/// The clock, and the type of its times, if the time is kept when the belief is told.
+pub(super) fn timing<'a>(program: &'a Program, belief: &Belief) -> Option<&'a (BasicId, CType)> {
+    let is_this = |told: &&Told| std::ptr::eq(program.belief(told.belief), belief);
+    program.told.iter().find(is_this).and_then(|told| program.timing(told))
 }
 
 /// An argument of a pending event.

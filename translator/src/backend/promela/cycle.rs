@@ -107,17 +107,17 @@ impl Emission<'_> {
             all.push(own.to_owned());
             all.join(" && ")
         };
-        for (index, external) in self.program.external.iter().enumerate() {
-            if !external.preemptive {
-                continue;
+        for trigger in &self.program.configuration.preemptive {
+            if let Some((index, _)) = self.program.raised(trigger) {
+                let number = self.number(Waiting::External(index));
+                let flag = format!("preempts_{index}");
+                self.writer.line(format!(
+                    ":: {} -> {flag} = false; posted = 0; limited = 0; event = {number}",
+                    guarded(&before, &flag)
+                ));
+                before.push(format!("!{flag}"));
             }
-            let number = self.number(Waiting::External(index));
-            let flag = format!("preempts_{index}");
-            self.writer.line(format!(
-                ":: {} -> {flag} = false; posted = 0; limited = 0; event = {number}",
-                guarded(&before, &flag)
-            ));
-            before.push(format!("!{flag}"));
+            self.take_urgent(&trigger.name.text, &mut before);
         }
         self.writer.line(format!(":: {} ->", guarded(&before, "posted != 0")));
         self.writer.line("event = posted; posted = 0;");

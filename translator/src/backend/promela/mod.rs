@@ -333,7 +333,7 @@ impl<'a> Emission<'a> {
         match self.program.raised(event) {
             Some((index, external)) if external.preemptive => format!("preempts_{index}"),
             Some((index, _)) => format!("inbox??[{}]", self.number(Waiting::External(index))),
-            None => "false".to_owned(),
+            None => self.waits_to_be_heard(event),
         }
     }
 }

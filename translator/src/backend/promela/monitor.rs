@@ -2,8 +2,8 @@
 
 use super::{Emission, Writer};
 use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
-use crate::program::{BasicId, BeliefId};
-use crate::syntax::ast::Name;
+use crate::program::{BasicId, BeliefId, Said};
+use crate::syntax::ast::{Name, Operator};
 use crate::types::TypeKind;
 
 impl Emission<'_> {
@@ -99,6 +99,38 @@ impl Emission<'_> {
         let is_this = |event: &ExternalTrigger| {
             self.program.raised(event).is_some_and(|(other, _)| other == index)
         };
+        let cases = match &self.part {
+            Some(part) => part.on_raise(index),
+            None => self.on_event(is_this),
+        };
+        self.of_the_checked(cases);
+    }
+
+    /// A peer says something that causes an event.
+    pub(super) fn on_said(&mut self, said: Said, operator: Operator) {
+        let is_this = |event: &ExternalTrigger| {
+            event.operator == operator && self.program.said(event) == Some(said)
+        };
+        let cases = self.on_event(is_this);
+        self.of_the_checked(cases);
+    }
+
+    /// A peer will take something back: if it waits, nothing is due for it.
+    pub(super) fn before_taking_back(&mut self, said: Said, operator: Operator) {
+        let case = |property: &Property| match &property.formula {
+            Formula::Within { cause: Cause::Event(event), .. }
+                if event.operator == operator && self.program.said(event) == Some(said) =>
+            {
+                vec![when(self.waits(event), "due = 0")]
+            }
+            _ => Vec::new(),
+        };
+        let cases = (1..).zip(self.properties().iter().map(case)).collect();
+        self.of_the_checked(cases);
+    }
+
+    /// What an accepted event does to each property.
+    fn on_event(&self, is_this: impl Fn(&ExternalTrigger) -> bool) -> Vec<(usize, Vec<Case>)> {
         let case = |property: &Property| match &property.formula {
             Formula::Within { unless, .. } if unless.iter().any(&is_this) => {
                 vec![when("true", "due = 0")]
@@ -111,11 +143,7 @@ impl Emission<'_> {
             }
             _ => Vec::new(),
         };
-        let cases = match &self.part {
-            Some(part) => part.on_raise(index),
-            None => (1..).zip(self.properties().iter().map(case)).collect(),
-        };
-        self.of_the_checked(cases);
+        (1..).zip(self.properties().iter().map(case)).collect()
     }
 
     /// A step begins.

@@ -6,7 +6,7 @@ use crate::backend::c::state::{
     Ring, Slot, deferred_ring, external_name, handler_name, inbox_ring, limits, pending,
 };
 use crate::plain;
-use crate::program::{External, HandlerId, trigger_text};
+use crate::program::{Asked, External, HandlerId, trigger_text};
 
 /// States in which a step handles the same event.
 pub(super) struct Case {
@@ -33,11 +33,17 @@ impl Comparison<'_> {
         let mut cases = Vec::new();
         // What is served before, and is not pending.
         let mut before = Fields::new();
-        for external in plain::preempting(program).map(|(_, external)| external) {
-            let flag = self.names.field(&pending(Slot::Preemptive, &external_name(external)));
-            let fields = with(&before, [(flag.clone(), "true".to_owned())]);
-            cases.push(Case { name: format!("{} pre-empts", written(external)), fields });
-            before.push((flag, "false".to_owned()));
+        for trigger in &program.configuration.preemptive {
+            if let Some((_, external)) = plain::preempting(program, trigger) {
+                let flag = self.names.field(&pending(Slot::Preemptive, &external_name(external)));
+                let fields = with(&before, [(flag.clone(), "true".to_owned())]);
+                cases.push(Case { name: format!("{} pre-empts", written(external)), fields });
+                before.push((flag, "false".to_owned()));
+            }
+            let urgent = program.asked.iter().filter(|asked| asked.preemptive);
+            for asked in urgent.filter(|asked| asked.name == trigger.name.text) {
+                self.asked(asked, "pre-empts", &mut before, &mut cases);
+            }
         }
         let posted = self.names.field("posted");
         for id in &program.posted {
@@ -80,14 +86,8 @@ impl Comparison<'_> {
     /// The first message that waits, in the order of their declarations: with any turn, every other may be the next event.
     fn messages(&self, before: &mut Fields, cases: &mut Vec<Case>) {
         let program = self.program;
-        for asked in &program.asked {
-            let (name, count) = (asked_name(program, asked), ring_field(program, asked, "count"));
-            let count = self.names.field(&count);
-            for waiting in 1..=asked.room {
-                let fields = with(before, [(count.clone(), format!("{waiting}U"))]);
-                cases.push(Case { name: format!("+!{name} waits ({waiting} of them)"), fields });
-            }
-            before.push((count, "0U".to_owned()));
+        for asked in program.asked.iter().filter(|asked| !asked.preemptive) {
+            self.asked(asked, "waits", before, cases);
         }
         for told in noticed(program) {
             let name = told_name(program, told);
@@ -96,6 +96,17 @@ impl Comparison<'_> {
             cases.push(Case { name: format!("a change of {name} waits"), fields });
             before.push((flag, "false".to_owned()));
         }
+    }
+
+    /// A goal of a peer, by how many of them wait.
+    fn asked(&self, asked: &Asked, how: &str, before: &mut Fields, cases: &mut Vec<Case>) {
+        let name = asked_name(self.program, asked);
+        let count = self.names.field(&ring_field(self.program, asked, "count"));
+        for waiting in 1..=asked.room {
+            let fields = with(before, [(count.clone(), format!("{waiting}U"))]);
+            cases.push(Case { name: format!("+!{name} {how} ({waiting} of them)"), fields });
+        }
+        before.push((count, "0U".to_owned()));
     }
 
     /// The events of the list, as in [`Self::listed`].

@@ -104,7 +104,10 @@ impl Comparison<'_> {
                     writer.line(same_result("accepted", "expected", &name));
                 }
                 Call::Set(belief) => self.set_alone(writer, belief, &made, &values),
-                Call::Receive(_) => {
+                Call::Receive(function) => {
+                    if function.asks_time {
+                        writer.line("plain_restart();");
+                    }
                     writer.line(format!("bool accepted = {made};"));
                     writer.line(format!("bool expected = plain_{name}({values});"));
                     writer.line(same_result("accepted", "expected", &name));

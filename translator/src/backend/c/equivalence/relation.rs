@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use super::Comparison;
-use crate::backend::c::said::{TURNS, asked_name, asked_types, noticed, ring_field, told_name};
+use crate::backend::c::said::{asked_name, asked_types, ring_field, told_name, turns};
 use crate::backend::c::state::{
     Ring, Slot, belief_value, counters, deferred_ring, external_name, handler_name, held,
-    inbox_ring, limited_types, limits, pending, slot_value,
+    inbox_ring, limited_types, limits, pending, slot_value, timing, told_at,
 };
 use crate::plain;
 use crate::program::HandlerId;
@@ -119,6 +119,15 @@ impl Comparison<'_> {
                 };
                 relation.value(element, &self.names.field(&belief_value(name, index)));
             }
+            if let Some((_, time)) = timing(self.program, belief) {
+                let element = Element {
+                    name: format!("when {name} was told"),
+                    place: format!("told_at_{name}"),
+                    matters: format!("plain.{place}"),
+                    ctype: Some(time.clone()),
+                };
+                relation.value(element, &self.names.field(&told_at(name)));
+            }
             if let Some(handler) = belief.perceived {
                 let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
                 let name = format!("perceived {name}");
@@ -199,13 +208,12 @@ impl Comparison<'_> {
             return;
         }
         relation.number("who it is", "me", &number("me"));
-        let kinds = [!program.asked.is_empty(), noticed(program).next().is_some()];
-        for (turn, is_there) in TURNS.into_iter().zip(kinds) {
-            if is_there {
-                relation.number("whose turn it is", turn, &number(turn));
-            } else {
-                _ = writeln!(relation.read, "    to->{turn} = 0;");
-            }
+        let turns = turns(program);
+        for turn in &turns {
+            relation.number("whose turn it is", turn, &number(turn));
+        }
+        for turn in plain::TURNS.iter().filter(|turn| !turns.iter().any(|known| known == *turn)) {
+            _ = writeln!(relation.read, "    to->{turn} = 0;");
         }
         for (index, asked) in program.asked.iter().enumerate() {
             let name = asked_name(program, asked);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Comparison;
 use super::relation::numbered;
-use crate::backend::c::said::{TURNS, noticed, ring_field, ring_parts};
+use crate::backend::c::said::{ring_field, ring_parts, turns};
 use crate::backend::c::state::{
     Ring, Slot, deferred_ring, external_count, handler_name, held, inbox_ring, limits, pending,
     perceived,
@@ -46,9 +46,8 @@ impl Comparison<'_> {
         if program.has_peers() {
             let peers = program.configuration.peers.len();
             unless(text, &format!("{} < {peers}U", field("me")));
-            let kinds = [!program.asked.is_empty(), noticed(program).next().is_some()];
-            for (turn, _) in TURNS.into_iter().zip(kinds).filter(|(_, is_there)| *is_there) {
-                unless(text, &format!("{} < {peers}U", field(turn)));
+            for turn in turns(program) {
+                unless(text, &format!("{} < {peers}U", field(&turn)));
             }
         }
         for asked in &program.asked {

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use super::{Builder, occupied};
 use crate::backend::c::events::{event_name, no_event};
-use crate::backend::c::messages::waits;
-use crate::backend::c::said::{ring_field, ring_parts};
+use crate::backend::c::said::{ring_field, ring_parts, turns};
 use crate::backend::c::state::{
     Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held, pending,
     perceived, queued, rings,
 };
+use crate::backend::c::turns::waits;
 use crate::configuration::{Cause, Formula, Property};
 use crate::program::{Belief, Value};
 use crate::types::TypeKind;
@@ -111,6 +111,9 @@ impl Builder<'_> {
         let peers = program.configuration.peers.len();
         if peers > 0 {
             candidates.push(format!("(self->me < {peers}U)"));
+            // Otherwise the turn could pass over a peer.
+            candidates
+                .extend(turns(program).iter().map(|turn| format!("(self->{turn} < {peers}U)")));
         }
         for asked in &program.asked {
             let count = ring_field(program, asked, "count");
@@ -120,7 +123,12 @@ impl Builder<'_> {
                 candidates.push(format!("(self->{first} < {}U)", asked.room));
             }
         }
-        // It believes nothing of what it says itself.
+        // It asks itself for nothing, and believes nothing of what it says itself.
+        for asked in &program.asked {
+            let count = ring_field(program, asked, "count");
+            let sender = program.peer(asked.sender);
+            candidates.push(format!("((self->{count} == 0U) || (self->me != {sender}))"));
+        }
         for told in &program.told {
             let held = held(&program.belief(told.belief).name);
             candidates
@@ -157,7 +165,7 @@ impl Builder<'_> {
     fn monitor_candidates(&self, property: &Property, posted: &[String], out: &mut Vec<String>) {
         let name = &property.name.text;
         match &property.formula {
-            Formula::Within { steps, cause, .. } => {
+            Formula::Within { steps, cause, unless, .. } => {
                 out.push(format!("(due_{name} <= {steps}U)"));
                 for due in 1..=(*steps).min(4) {
                     for event in posted {
@@ -176,10 +184,25 @@ impl Builder<'_> {
                 }
                 if let Cause::Event(event) = cause {
                     out.push(format!("((due_{name} == 0U) || {})", self.waits(event)));
+                    // Its sender may be the next one.
+                    if let Some((turn, peer)) = self.turn(event) {
+                        out.extend((1..=(*steps).min(4)).map(|due| {
+                            format!("((due_{name} != {due}U) || (self->{turn} == {peer}))")
+                        }));
+                    }
                 }
+                // What a peer has said before excuses.
+                let said = unless.iter().filter(|event| event.source.is_some());
+                out.extend(
+                    said.map(|event| format!("((due_{name} == 0U) || !{})", self.waits(event))),
+                );
                 for external in self.program.external.iter().filter(|e| e.preemptive) {
                     let flag = pending(Slot::Preemptive, &external_name(external));
                     out.push(format!("((due_{name} == 0U) || !self->{flag})"));
+                }
+                for asked in self.program.asked.iter().filter(|asked| asked.preemptive) {
+                    let count = ring_field(self.program, asked, "count");
+                    out.push(format!("((due_{name} == 0U) || (self->{count} == 0U))"));
                 }
             }
             Formula::OnlyAfter { event, .. } => {

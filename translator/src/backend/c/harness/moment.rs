@@ -2,10 +2,10 @@
 
 use super::Builder;
 use crate::backend::c::events::{event_name, no_event};
-use crate::backend::c::messages::silence;
 use crate::backend::c::state::{
     Slot, external_name, handler_name, inbox_ring, pending, perceived, queued,
 };
+use crate::backend::c::turns::{asks_nothing, silence};
 use crate::syntax::ast::TriggerKind;
 
 /// Assignments to an arbitrary state that leave one event which can come first.
@@ -31,6 +31,8 @@ impl Builder<'_> {
             }
             calm.push(format!("self->{flag} = false;"));
         }
+        let no_peer = asks_nothing(program, &self.names, true).into_iter();
+        calm.extend(no_peer.map(|set| format!("{set};")));
         for id in &program.posted {
             let event = event_name(&self.names, Slot::Posted, &handler_name(program, *id));
             let mut sets = calm.clone();
