@@ -119,6 +119,8 @@ pub(super) enum Task {
     /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface,
     /// results of its functions, steps, and its state
     ///
+    /// A file NAME.system describes several agents that talk, which are run round by round.
+    ///
     /// `help` lists the commands. Input from a file or pipe is executed line by line; the exit status is 1 if
     /// a line has an error, differs from a transcript, or violates a property.
     Run(Run),
@@ -147,6 +149,8 @@ pub(super) enum Task {
     /// could not be decided or a tool is missing.
     Certify(Certify),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
+    ///
+    /// A file NAME.system describes several agents that talk, the channels between them, and properties of the whole.
     ///
     /// For a property that does not hold, the shortest counterexample is shown: the environment's actions,
     /// the event of each step, its plan and the actions, with lines of the agent. Values are not part of the

@@ -210,8 +210,11 @@ impl Session {
     }
 
     fn undo(&mut self, count: u32) -> Result<(), String> {
-        for _ in 0..count {
-            self.now = self.before.pop_back().ok_or("there is nothing more to undo")?;
+        let left = self.before.len().checked_sub(count as usize);
+        let left = left.ok_or("there is not so much to undo")?;
+        let before = self.before.drain(left..).next();
+        if let Some(before) = before {
+            self.now = before;
         }
         Ok(())
     }

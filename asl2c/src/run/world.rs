@@ -90,6 +90,9 @@ impl Environment for World {
     fn chosen(&mut self) {
         if let Some(trace) = &self.trace {
             *self.calls.entry(trace.clone()).or_default() += 1;
+            if !self.sending.is_empty() {
+                self.sequence.push(trace.clone());
+            }
         }
     }
 

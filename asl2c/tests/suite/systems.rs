@@ -7,6 +7,8 @@ use std::process::{Command, Output};
 use asl2c::{Runs as _, SystemSession, Weather, read_system, replay};
 use insta::assert_snapshot;
 
+use crate::harness::{cbmc, skip};
+
 const GALLERY: &str = "../translator/agents";
 const SYSTEMS: [&str; 4] = ["contract", "corridor", "corridor_calm", "relief"];
 
@@ -36,6 +38,20 @@ fn every_system_is_in_the_gallery_and_its_readme() {
 fn every_property_of_the_gallerys_systems_holds() {
     for name in SYSTEMS {
         let output = asl2c(&["verify", &format!("{GALLERY}/systems/{name}.system")]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
+    }
+}
+
+/// What is proved of one agent holds in each system.
+#[test]
+fn every_agent_of_the_gallerys_systems_is_proved() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    for name in ["bidder", "keeper", "manager", "traveller"] {
+        let path = format!("{GALLERY}/systems/{name}.conf");
+        let output = asl2c(&["prove", &path, "--cbmc", cbmc.to_str().unwrap()]);
         assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
     }
 }
@@ -203,7 +219,7 @@ fn faults_are_found_and_can_be_repeated() {
 const PAIR: &str = "settings { input = INPUT; output = a.c; header = a.h; basics = b.h; };
     basics { void act(int32_t); bool ready(void); };
     peers { one, two }; messages { tell seen(int32_t) from any; achieve go from one, 1; };
-    types { live(void); start(void); }; triggerables { +!start; };
+    types { live(void); start(void); wait(void); }; triggerables { +!start; };
     properties { few: at_most_one(act); };";
 const TALKS: &str = "!live. +!live : ready & seen(X)[source(P)] & P \\== self <- act(X); .send(P, tell, seen(X + 1)); !!live.
     +!live <- !!live. +!go <- act(0). +!start <- .send(two, achieve, go); .broadcast(tell, seen(1)).";
@@ -247,6 +263,48 @@ fn what_does_not_fit_is_refused_with_its_place() {
         all += &said(&output);
     }
     assert_snapshot!(all);
+}
+
+/// What a receiver refuses takes its place in the channel; a trace function is an action.
+#[test]
+fn refused_messages_and_traces_count() {
+    let folder = pair(
+        "agents { one: a.conf; two: a.conf; }; channels { capacity = 1; losses = 0; delay = 0; };
+        properties { answered: within(2, two.send_tell_seen, one.act); traced: within(1, one.act, two.trace); };",
+    );
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let traced =
+        PAIR.replace("INPUT", "a.asl").replace("basics = b.h;", "basics = b.h; trace = trace;");
+    write("a.conf", &traced);
+    // Only the first may ask for it.
+    write(
+        "a.asl",
+        "!live. +!live : .my_name(two) <- .send(one, achieve, go); .send(one, tell, seen(1)). +!live <- !!wait.
+        +!wait : seen(_)[source(two)] <- act(1). +!wait <- !!wait. +!go. +!start.",
+    );
+    let path = folder.path().join("a.system");
+    let path = path.to_str().unwrap();
+    let output = asl2c(&["verify", path]);
+    let text = said(&output);
+    for broken in ["answered", "channels_suffice"] {
+        assert!(text.contains(&format!("{broken}: DOES NOT HOLD")), "{text}");
+    }
+    let script = folder.path().join("four.script");
+    fs::write(&script, "step 4\n").unwrap();
+    let text = said(&asl2c(&["run", path, "--script", script.to_str().unwrap()]));
+    assert!(
+        text.contains("breaks `channels_suffice`") && text.contains("breaks `answered`"),
+        "{text}"
+    );
+    // It chooses a plan in each step that the other one acts in.
+    write(
+        "a.asl",
+        "!live. +!live : .my_name(one) <- act(1); !!live. +!live <- .broadcast(tell, seen(2)); !!live. +!go. +!start.",
+    );
+    let text = said(&asl2c(&["verify", path, "--only", "traced"]));
+    assert!(text.contains("traced: holds"), "{text}");
+    let text = said(&asl2c(&["run", path, "--script", script.to_str().unwrap()]));
+    assert!(!text.contains("breaks `traced`"), "{text}");
 }
 
 fn shown(channels: &str, weather: Weather, lines: &[&str]) -> String {
@@ -303,6 +361,7 @@ fn messages_arrive_are_lost_and_overtake_each_other() {
         "step 0",
         "step 1 2",
         "undo 100",
+        "undo",
         "help",
         "quit",
     ];

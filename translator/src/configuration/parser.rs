@@ -90,7 +90,11 @@ impl<'a> Parser<'a> {
         if !SECTIONS.contains(&section) {
             return Err(Code::UnknownSection
                 .at(format!("unknown section `{section}`"), name.span)
-                .help(advice(section, &SECTIONS)));
+                .help(if ["agents", "channels"].contains(&section) {
+                    "this is a system of agents: `asl2c run` and `asl2c verify` know it, as `NAME.system`".to_owned()
+                } else {
+                    advice(section, &SECTIONS)
+                }));
         }
         if self.seen.contains(&section) {
             return Err(Code::DeclaredTwice

@@ -2,16 +2,13 @@
 
 use diagnostic::{Diagnostic, closest};
 
-use super::{AgentAction, AgentCause, Channels, ParsedSystem, SystemFormula, SystemProperty};
+use super::{AgentAction, AgentCause, Channels, ParsedSystem, ROOM, SystemFormula, SystemProperty};
 use crate::code::Code;
 use crate::configuration::{ExternalTrigger, Message};
 use crate::gather::gather;
 use crate::program::{Program, trigger_text};
 use crate::syntax::ast::Name;
 use crate::{DeclaredProperty, ParsedConfiguration, TranslateError, check};
-
-/// The property that every system has whose losses are bounded: what a full channel loses is not counted.
-pub const ROOM: &str = "channels_suffice";
 
 /// A system whose agents can be translated and fit each other.
 #[derive(Debug)]

@@ -17,7 +17,7 @@ mod parser;
 
 use diagnostic::{Source, Span};
 
-pub use compose::{Member, ROOM, System, compose};
+pub use compose::{Member, System, compose};
 
 use crate::TranslateError;
 use crate::configuration::ExternalTrigger;
@@ -26,6 +26,9 @@ use crate::syntax::ast::Name;
 
 /// The ending of the names of files that describe systems.
 pub const ENDING: &str = "system";
+
+/// The property that every system has whose losses are bounded: what a full channel loses is not counted.
+pub const ROOM: &str = "channels_suffice";
 
 /// A parsed description of a system, whose names are not resolved.
 #[derive(Debug, Clone)]

@@ -2,7 +2,9 @@
 
 use diagnostic::Diagnostic;
 
-use super::{Agent, AgentAction, AgentCause, Channels, Declared, SystemFormula, SystemProperty};
+use super::{
+    Agent, AgentAction, AgentCause, Channels, Declared, ROOM, SystemFormula, SystemProperty,
+};
 use crate::code::Code;
 use crate::configuration::scanner::{Parsed, Scanner, advice};
 
@@ -166,6 +168,10 @@ impl Parser<'_> {
         let formula = self.formula()?;
         let span = start..self.scanner.position;
         self.scanner.expect(";")?;
+        if name.text == ROOM {
+            let message = format!("`{ROOM}` is a property that systems have themselves");
+            return Err(Code::ReservedName.at(message, name.span).help("give it another name"));
+        }
         let known = &mut self.declared.properties;
         if known.iter().any(|property| property.name.text == name.text) {
             let message = format!("a second property `{}`", name.text);
@@ -260,6 +266,7 @@ mod tests {
             properties {
               p: never(a.x); p: never_together(a.x); p: never_together(a, b.x); p: within(0, a.x, b.y);
               p: within(1, a.-!g, b.y); p: within(2, a.x, b.y); p: within(3, a.x, b.y);
+              channels_suffice: within(1, a.x, b.y);
             };
             agents { }; agent { };";
         insta::assert_snapshot!(messages(text).join("\n"));

@@ -317,8 +317,10 @@ impl<'a> SystemSession<'a> {
     }
 
     fn undo(&mut self, count: u32) -> Result<(), String> {
-        for _ in 0..count {
-            let before = self.before.pop_back().ok_or("there is nothing more to undo")?;
+        let left = self.before.len().checked_sub(count as usize);
+        let left = left.ok_or("there is not so much to undo")?;
+        let before = self.before.drain(left..).next();
+        if let Some(before) = before {
             self.restore(before);
         }
         Ok(())

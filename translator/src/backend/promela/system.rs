@@ -131,9 +131,7 @@ impl Part<'_> {
         let others = self.system.members.iter().filter(|other| other.peer != self.peer);
         others
             .flat_map(|other| {
-                let sent = (0..)
-                    .zip(kinds(self.system))
-                    .filter(|(_, kind)| sends(program, self.peer, *kind));
+                let sent = (0..).zip(kinds(self.system)).filter(|(_, kind)| sends(program, *kind));
                 sent.map(|(kind, _)| Way { from: self.peer, to: other.peer, kind })
             })
             .collect()
@@ -202,12 +200,11 @@ fn receiver((handler, plan): (HandlerId, usize), variable: VariableId) -> String
     format!("peer_{}_{plan}_{}", handler.0, variable.0)
 }
 
-/// Whether an agent sends messages of a kind that it may send.
-fn sends(program: &Program, peer: usize, (performative, name): (Performative, &str)) -> bool {
+/// Whether an agent sends messages of a kind, also of one that it may not send: that takes its place in the channel, and is
+/// refused when it arrives.
+fn sends(program: &Program, (performative, name): (Performative, &str)) -> bool {
     let action = sending(performative, name);
-    let message = program.configuration.message(performative, name);
-    message.is_some_and(|message| message.senders.contains(&peer))
-        && program.configuration.basics.iter().any(|basic| basic.name.text == action)
+    program.configuration.basics.iter().any(|basic| basic.name.text == action)
 }
 
 fn ways(system: &System) -> Vec<Way> {
