@@ -72,20 +72,13 @@ fn every_transcript_is_what_the_system_does() {
 type Fault = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
 /// Each with a way that agents with values can go.
-const FAULTS: [Fault; 16] = [
+const FAULTS: [Fault; 12] = [
     ("corridor", "systems/keeper.asl", " <- +taken; .send", " <- .send", &["one_at_a_time"]),
     (
         "corridor",
         "systems/traveller.asl",
         ".send(keeper, untell, waiting).",
         ".send(keeper, untell, waiting); .send(keeper, achieve, release).",
-        &["one_at_a_time"],
-    ),
-    (
-        "corridor",
-        "systems/traveller.asl",
-        "<- hold; +wants",
-        "<- hold; +inside",
         &["one_at_a_time"],
     ),
     (
@@ -109,7 +102,6 @@ const FAULTS: [Fault; 16] = [
         "hold.",
         &["is_used"],
     ),
-    ("corridor_calm", "systems/traveller.asl", "inside <- pass", "inside <- hold", &["is_used"]),
     (
         "contract",
         "systems/manager.asl",
@@ -128,13 +120,6 @@ const FAULTS: [Fault; 16] = [
     (
         "contract",
         "systems/bidder.asl",
-        "tell, bid(1000)).",
-        "tell, bid(1000)); +working.",
-        &["one_works"],
-    ),
-    (
-        "contract",
-        "systems/bidder.asl",
         "<- rest; .send(manager, tell, bid(1000)).",
         "<- rest.",
         &["is_given"],
@@ -145,13 +130,6 @@ const FAULTS: [Fault; 16] = [
         "<- flyToPlace",
         "<- hover",
         &["first_is_relieved", "second_is_relieved"],
-    ),
-    (
-        "relief",
-        "relief.asl",
-        "+!wait : watching[source(self)] <- watch",
-        "+!wait : watching[source(self)] <- hover",
-        &["first_is_relieved"],
     ),
     (
         "relief",
@@ -194,7 +172,9 @@ fn faults_are_found_and_can_be_repeated() {
         let folder = with_fault(file, from, to);
         let system = folder.path().join("systems").join(format!("{name}.system"));
         let system = system.to_str().unwrap();
-        let output = asl2c(&["verify", system, "--json"]);
+        let mut verify = vec!["verify", system, "--json"];
+        verify.extend(properties.iter().flat_map(|property| ["--only", property]));
+        let output = asl2c(&verify);
         if properties.is_empty() {
             // The messages differ.
             assert!(said(&output).contains("has other messages than"), "{}", said(&output));

@@ -505,21 +505,17 @@ fn mistakes_in_messages_are_found() {
 }
 
 #[test]
-fn mistakes_in_urgent_goals_and_ages_are_found() {
+fn mistakes_in_urgent_goals_are_found() {
     let configuration =
-        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; clock = now; };
-        basics { void say(uint8_t); void old(int32_t); int32_t now(void); };
+        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; };
+        basics { void say(uint8_t); };
         peers { a, b };
-        messages { tell at(uint8_t) from any; achieve land from any, 2; };
+        messages { achieve land from any, 2; };
         preemptive { +!land; };
         types { go(uint8_t); };\n";
-    let agent = "!go(0).
-        +!go(X) <- say(X); !go(X).
-        +!land[source(b)] <- say(1).
-        +!land <- say(2).
-        +at(_) : at(_)[source(P), age(A)] & A > 3 & P \\== b <- old(A).\n";
+    let agent =
+        "!go(0). +!go(X) <- say(X); !go(X). +!land[source(b)] <- say(1). +!land <- say(2).\n";
     let taken = "event = take_urgent_land();";
-    let told = "agent.belief_at_from_b_told_at = now();";
     find_mistakes(
         configuration,
         agent,
@@ -529,6 +525,23 @@ fn mistakes_in_urgent_goals_and_ages_are_found() {
             (taken, "event = take_urgent_land();\n        agent.posted = EVENT_NONE;"),
             // A sender that starves the other one.
             ("agent.urgent_turn_land = (value + 1U) % 2U;", "agent.urgent_turn_land = value % 2U;"),
+        ],
+    );
+}
+
+#[test]
+fn mistakes_in_ages_are_found() {
+    let configuration =
+        "settings { input = talker.asl; output = talker.c; header = talker.h; basics = b.h; clock = now; };
+        basics { void old(int32_t); int32_t now(void); };
+        peers { a, b };
+        messages { tell at(uint8_t) from any; };\n";
+    let agent = "+at(_) : at(_)[source(P), age(A)] & A > 3 & P \\== b <- old(A).\n";
+    let told = "agent.belief_at_from_b_told_at = now();";
+    find_mistakes(
+        configuration,
+        agent,
+        &[
             // The time of another sender, none, and one that is not the clock's.
             ("agent.belief_at_from_a_told_at, &", "agent.belief_at_from_b_told_at, &"),
             (told, ""),
