@@ -287,6 +287,28 @@ fn refused_messages_and_traces_count() {
     assert!(!text.contains("breaks `traced`"), "{text}");
 }
 
+/// The time of an answer begins when the event is raised, also after the agent's step, and behind another event.
+#[test]
+fn an_event_that_waits_behind_another_one_is_late() {
+    let folder = pair(
+        "agents { one: a.conf; two: a.conf; };
+        properties { next: within(1, one.+!start, one.act); after: within(2, one.+!start, one.act); };",
+    );
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let two = PAIR.replace("INPUT", "a.asl").replace("basics = b.h;", "basics = b.h; inbox = 2;");
+    write("a.conf", &two.replace("+!start; }", "+!start; +!wait; }"));
+    write("a.asl", "+!start <- act(1). +!wait. +!go.");
+    let path = folder.path().join("a.system");
+    let path = path.to_str().unwrap();
+    let text = said(&asl2c(&["verify", path]));
+    assert!(text.contains("next: DOES NOT HOLD") && text.contains("after: holds"), "{text}");
+    let script = folder.path().join("late.script");
+    fs::write(&script, "one: step\none: achieve_wait(); achieve_start()\ntwo: step\nstep 2\n")
+        .unwrap();
+    let text = said(&asl2c(&["run", path, "--script", script.to_str().unwrap()]));
+    assert!(text.contains("breaks `next`") && !text.contains("breaks `after`"), "{text}");
+}
+
 fn shown(channels: &str, weather: Weather, lines: &[&str]) -> String {
     let folder = pair(&format!("{AGENTS}{channels}"));
     let system = read_system(&folder.path().join("a.system")).unwrap();

@@ -26,7 +26,7 @@ impl Emission<'_> {
             } else {
                 (format!("len(inbox) < {}", settings.inbox), format!("inbox!{number};"))
             };
-            let (when, then) = self.part.map_or_else(free, |part| part.environment(Some(index)));
+            let (when, then) = self.part.map_or_else(free, |part| part.environment(true));
             let guard = and(&[when, room]);
             self.writer.line(format!(":: {guard} -> {then}{raise}"));
             self.say(&format!("raise {number}"));
@@ -49,7 +49,7 @@ impl Emission<'_> {
             if guard == "false" {
                 continue;
             }
-            let (when, then) = self.part.map_or_else(free, |part| part.environment(None));
+            let (when, then) = self.part.map_or_else(free, |part| part.environment(false));
             let guard = and(&[when, guard]);
             self.writer.line(format!(":: {guard} -> {then}"));
             if belief.perceived.is_some() {

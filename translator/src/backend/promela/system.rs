@@ -111,11 +111,12 @@ impl Part<'_> {
     /// When the agent's environment does something, and that the agent's step is then the next one.
     ///
     /// Nobody else sees an event or belief before the agent has made its step: it is enough to have them directly before it.
-    /// An event that begins an answer's time may come at any time, but after all steps of a round it belongs to the next.
-    pub(super) fn environment(&self, event: Option<usize>) -> (String, String) {
-        let is_cause = event
-            .is_some_and(|index| self.on_raise(index).iter().any(|(_, cases)| !cases.is_empty()));
-        if is_cause {
+    /// An event that begins an answer's time may come at any time, and so may those that it waits behind; after all steps of a
+    /// round they belong to the next.
+    pub(super) fn environment(&self, is_event: bool) -> (String, String) {
+        let mut events = 0..self.member.program.external.len();
+        let is_cause = |index| self.on_raise(index).iter().any(|(_, cases)| !cases.is_empty());
+        if is_event && events.any(is_cause) {
             let members = self.system.members.iter();
             let goes_on = members.map(|member| format!("!moved_{}", member.peer));
             let goes_on = or(&goes_on.collect::<Vec<_>>());
