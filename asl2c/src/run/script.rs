@@ -43,7 +43,7 @@ pub(super) enum Statement {
 /// The line of a script as what the environment does; `mind` does nothing.
 ///
 /// # Errors
-/// As for [`Session::execute`](super::Session::execute), and if the line has something that no environment does.
+/// As for [`Runs::execute`](super::Runs::execute), and if the line has something that no environment does.
 pub(crate) fn acts(line: &str, configuration: &Configuration) -> Result<Vec<Act>, Diagnostic> {
     let mut acts = Vec::new();
     for statement in parse_line(line, configuration)? {

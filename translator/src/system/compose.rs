@@ -75,11 +75,6 @@ impl System {
     pub(crate) fn room_number(&self) -> Option<usize> {
         self.channels.losses.map(|_| self.properties.len() + 1)
     }
-
-    /// What the agents say to each other, which is the same for all.
-    pub fn messages(&self) -> &[Message] {
-        self.members.first().map_or(&[], |first| &first.configuration.declarations().messages)
-    }
 }
 
 /// Puts agents together: the configuration of each, and its text, in the order of [`ParsedSystem::agents`].
