@@ -48,7 +48,7 @@ pub use prove::{
     Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,
     Watch, prove, validate, validate_watched, violates,
 };
-pub use run::{Replay, Runs, Session, SystemSession, Weather, repeat, replay};
+pub use run::{NetworkConditions, Replay, Runs, Session, SystemSession, repeat, replay};
 pub use spin::{Counterexample, SPIN, SpinError, Verdict};
 pub use target::{Bound, Observed, OnTarget, TargetError, TraceDifference, on_host, on_target};
 pub use tool::ToolError;

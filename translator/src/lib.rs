@@ -105,17 +105,7 @@ impl ParsedConfiguration {
 
     fn declared_properties(&self) -> Vec<DeclaredProperty> {
         let properties = self.configuration.properties.iter();
-        properties
-            .map(|property| {
-                let text = self.text.get(property.span.clone()).unwrap_or_default();
-                let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
-                DeclaredProperty {
-                    name: property.name.text.clone(),
-                    requirements: property.requirements.clone(),
-                    formula: formula.split_whitespace().collect::<Vec<_>>().join(" "),
-                }
-            })
-            .collect()
+        properties.map(|property| property.declared(&self.text)).collect()
     }
 }
 

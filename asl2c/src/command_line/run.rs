@@ -10,7 +10,7 @@ use super::arguments::Run;
 use super::prompt::Prompt;
 use super::{CommandError, complain_of, print};
 use crate::agent::{self, Agent, is_system, read_system};
-use crate::run::{Runs, Session, SystemSession, Weather, is_skipped, replay};
+use crate::run::{NetworkConditions, Runs, Session, SystemSession, is_skipped, replay};
 
 /// Plans may be nested deeper than the usual stack allows.
 const STACK_BYTES: usize = 256 << 20;
@@ -28,16 +28,17 @@ pub(super) fn run(asked: &Run) -> Result<ExitCode, CommandError> {
 fn converse(asked: &Run) -> Result<ExitCode, CommandError> {
     if is_system(&asked.configuration) {
         let system = read_system(&asked.configuration)?;
-        let weather = weather(asked, system.channels)?;
-        return execute(asked, &mut SystemSession::new(&system, weather)?);
+        let conditions = conditions(asked, system.channels)?;
+        return execute(asked, &mut SystemSession::new(&system, conditions)?);
     }
     let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
     execute(asked, &mut Session::new(&configuration, &text)?)
 }
 
 /// What the channels do, which is within their bounds.
-fn weather(asked: &Run, channels: Channels) -> Result<Weather, CommandError> {
-    let weather = Weather { loss_percent: asked.loss, delay_rounds: asked.delay, seed: asked.seed };
+fn conditions(asked: &Run, channels: Channels) -> Result<NetworkConditions, CommandError> {
+    let conditions =
+        NetworkConditions { loss_percent: asked.loss, delay_rounds: asked.delay, seed: asked.seed };
     let refused = |what: String| Err(CommandError::Usage(what));
     if asked.loss > 0 && channels.losses == Some(0) {
         return refused("the channels of this system lose nothing: leave `--loss` out".to_owned());
@@ -45,7 +46,7 @@ fn weather(asked: &Run, channels: Channels) -> Result<Weather, CommandError> {
     if let Some(most) = channels.delay.filter(|most| asked.delay > *most) {
         return refused(format!("in this system a message is at most {most} rounds late"));
     }
-    Ok(weather)
+    Ok(conditions)
 }
 
 fn execute(asked: &Run, session: &mut dyn Runs) -> Result<ExitCode, CommandError> {

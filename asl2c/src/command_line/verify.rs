@@ -12,7 +12,7 @@ use super::arguments::Verify;
 use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print};
 use crate::agent::{Agent, folder, is_system, read_system};
-use crate::run::{SystemSession, Weather, repeat};
+use crate::run::{NetworkConditions, SystemSession, repeat};
 use crate::spin::Verdict;
 use crate::verify::{Checked, verify};
 use crate::written::{WriteError, check_script, write_script};
@@ -80,7 +80,7 @@ fn script_name(asked: &Verify, property: &str) -> String {
 /// Repeats the counterexample of a system with values, and saves it.
 fn script(asked: &Verify, system: &System, checked: &Checked) -> Result<Script, CommandError> {
     let Verdict::Fails(way) = &checked.verdict else { return Ok(Script::None) };
-    let mut session = SystemSession::new(system, Weather::CALM)?;
+    let mut session = SystemSession::new(system, NetworkConditions::PERFECT)?;
     let name = &checked.property.name;
     let Some(text) = repeat(&mut session, &way.moves, name) else { return Ok(Script::NoValues) };
     let output = asked.output.as_deref().unwrap_or(folder(&asked.configuration));

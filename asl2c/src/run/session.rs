@@ -1,15 +1,15 @@
 //! A run of an agent: its state, and earlier states for `undo`.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use diagnostic::Diagnostic;
 use translator::configuration::{Configuration, ExternalTrigger};
-use translator::interpreter::{Interpreter, Value, trigger, with_values};
+use translator::interpreter::{Interpreter, Refused, Value, trigger, with_values};
 use translator::syntax::ast::Performative;
 use translator::types::TypeKind;
 use translator::{CounterexampleStep, ParsedConfiguration, TranslateError};
 
+use super::history::History;
 use super::monitor::Monitors;
 use super::script::{Statement, parse_line, words};
 use super::transcript::Runs;
@@ -18,8 +18,6 @@ use super::world::{Answers, World};
 
 /// Shown for a step without an event.
 pub(crate) const IDLE: &str = "no event is pending";
-/// Number of states kept for `undo`.
-pub(super) const KEPT: usize = 500;
 
 /// An agent that is run interactively or by a script.
 ///
@@ -37,7 +35,7 @@ pub(super) const KEPT: usize = 500;
 pub struct Session {
     pub(super) configuration: Arc<Configuration>,
     pub(super) now: State,
-    before: VecDeque<State>,
+    before: History<State>,
     pub(super) broken: Vec<String>,
     ended: bool,
 }
@@ -70,7 +68,7 @@ impl Session {
         let monitors = Monitors::new(&configuration);
         let now = State { agent, world, monitors, steps: 0 };
         let configuration = Arc::new(configuration);
-        Ok(Self { configuration, now, before: VecDeque::new(), broken: Vec::new(), ended: false })
+        Ok(Self { configuration, now, before: History::new(), broken: Vec::new(), ended: false })
     }
 
     /// Begins as a peer whose messages are collected.
@@ -142,7 +140,11 @@ impl Session {
         shown: &mut Vec<String>,
     ) -> Result<(), String> {
         match statement {
-            Statement::Raise(event, values) => self.raise(&event, values, shown),
+            Statement::Raise(event, values) => {
+                if let Err(refused) = self.raise(&event, values) {
+                    shown.push(format!("// refused: {refused}"));
+                }
+            }
             Statement::Set(belief, values) => self.now.agent.set(belief, values),
             Statement::Receive(performative, about, values) => {
                 let sender = match values.first() {
@@ -182,12 +184,16 @@ impl Session {
         Ok(())
     }
 
-    fn raise(&mut self, event: &ExternalTrigger, values: Vec<Value>, shown: &mut Vec<String>) {
+    /// The environment raises an event.
+    pub(super) fn raise(
+        &mut self,
+        event: &ExternalTrigger,
+        values: Vec<Value>,
+    ) -> Result<(), Refused> {
         let State { agent, monitors, .. } = &mut self.now;
-        match agent.raise(event.operator, event.kind, &event.name.text, values) {
-            Ok(()) => monitors.raised(event, &self.configuration, agent),
-            Err(refused) => shown.push(format!("// refused: {refused}")),
-        }
+        agent.raise(event.operator, event.kind, &event.name.text, values)?;
+        monitors.raised(event, &self.configuration, agent);
+        Ok(())
     }
 
     /// A message arrives. False if it is refused.
@@ -210,10 +216,7 @@ impl Session {
     }
 
     fn undo(&mut self, count: u32) -> Result<(), String> {
-        let left = self.before.len().checked_sub(count as usize);
-        let left = left.ok_or("there is not so much to undo")?;
-        let before = self.before.drain(left..).next();
-        if let Some(before) = before {
+        if let Some(before) = self.before.undo(count)? {
             self.now = before;
         }
         Ok(())
@@ -279,10 +282,7 @@ impl Runs for Session {
             )
         };
         if statements.iter().any(changes) {
-            self.before.push_back(self.now.clone());
-            if self.before.len() > KEPT {
-                self.before.pop_front();
-            }
+            self.before.push(self.now.clone());
         }
         for statement in statements {
             self.statement(statement, &mut shown)

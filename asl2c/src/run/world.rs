@@ -34,10 +34,10 @@ pub(super) struct World {
     pub(super) trace: Option<String>,
     /// Number of calls of each basic action or function in the step.
     pub(super) calls: BTreeMap<String, u32>,
+    /// The same in their order.
+    pub(super) sequence: Vec<String>,
     /// The actions that send messages of a system: what they send.
     pub(super) sending: BTreeMap<String, (Performative, String)>,
-    /// All calls of the step in their order, in a system.
-    pub(super) sequence: Vec<String>,
     /// What was sent in the step, with the receiver first.
     pub(super) sent: Vec<(Performative, String, Vec<Value>)>,
     /// Events of the step, with their causes.
@@ -54,6 +54,11 @@ impl World {
         self.story.clear();
     }
 
+    fn count(&mut self, name: &str) {
+        *self.calls.entry(name.to_owned()).or_default() += 1;
+        self.sequence.push(name.to_owned());
+    }
+
     /// Whether all functions have reached their last result.
     pub(super) fn is_constant(&self) -> bool {
         self.answers.values().all(|answers| answers.next.len() <= 1)
@@ -66,10 +71,7 @@ impl Environment for World {
     }
 
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
-        *self.calls.entry(name.to_owned()).or_default() += 1;
-        if !self.sending.is_empty() {
-            self.sequence.push(name.to_owned());
-        }
+        self.count(name);
         if let Some((performative, about)) = self.sending.get(name) {
             self.sent.push((*performative, about.clone(), arguments.to_vec()));
         }
@@ -88,11 +90,8 @@ impl Environment for World {
     }
 
     fn chosen(&mut self) {
-        if let Some(trace) = &self.trace {
-            *self.calls.entry(trace.clone()).or_default() += 1;
-            if !self.sending.is_empty() {
-                self.sequence.push(trace.clone());
-            }
+        if let Some(trace) = self.trace.clone() {
+            self.count(&trace);
         }
     }
 

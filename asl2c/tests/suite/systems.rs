@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use asl2c::{Runs as _, SystemSession, Weather, read_system, replay};
+use asl2c::{NetworkConditions, Runs as _, SystemSession, read_system, replay};
 use insta::assert_snapshot;
 
 use crate::harness::{cbmc, skip};
@@ -61,7 +61,7 @@ fn every_transcript_is_what_the_system_does() {
     for name in ["contract", "corridor", "relief"] {
         let path = format!("{GALLERY}/systems/{name}");
         let system = read_system(Path::new(&format!("{path}.system"))).unwrap();
-        let mut session = SystemSession::new(&system, Weather::CALM).unwrap();
+        let mut session = SystemSession::new(&system, NetworkConditions::PERFECT).unwrap();
         let text = fs::read_to_string(format!("{path}.transcript")).unwrap();
         let replayed = replay(&mut session, name, &text);
         assert!(replayed.is_fine(), "{name} {:?}\n{}", replayed.broken, replayed.shown);
@@ -309,10 +309,10 @@ fn an_event_that_waits_behind_another_one_is_late() {
     assert!(text.contains("breaks `next`") && !text.contains("breaks `after`"), "{text}");
 }
 
-fn shown(channels: &str, weather: Weather, lines: &[&str]) -> String {
+fn shown(channels: &str, conditions: NetworkConditions, lines: &[&str]) -> String {
     let folder = pair(&format!("{AGENTS}{channels}"));
     let system = read_system(&folder.path().join("a.system")).unwrap();
-    let mut session = SystemSession::new(&system, weather).unwrap();
+    let mut session = SystemSession::new(&system, conditions).unwrap();
     let told = lines.iter().map(|line| match session.execute(line) {
         Ok(shown) => format!(
             "> {line}\n{}",
@@ -368,18 +368,18 @@ fn messages_arrive_are_lost_and_overtake_each_other() {
         "quit",
     ];
     let channels = "channels { capacity = 2; losses = 0; delay = 1; };";
-    assert_snapshot!(shown(channels, Weather::CALM, &lines));
+    assert_snapshot!(shown(channels, NetworkConditions::PERFECT, &lines));
 }
 
 #[test]
-fn weather_is_the_same_for_the_same_seed_and_within_the_bounds() {
+fn losses_and_delays_are_the_same_for_the_same_seed_and_within_the_bounds() {
     let steps =
         ["one: ready_result = true", "two: ready_result = true", "one: achieve_start()", "step 60"];
     let channels = "channels { capacity = 3; losses = 1; delay = 2; };";
-    let weather = |seed| Weather { loss_percent: 40, delay_rounds: 2, seed };
-    let first = shown(channels, weather(7), &steps);
-    assert_eq!(first, shown(channels, weather(7), &steps));
-    assert_ne!(first, shown(channels, weather(8), &steps));
+    let conditions = |seed| NetworkConditions { loss_percent: 40, delay_rounds: 2, seed };
+    let first = shown(channels, conditions(7), &steps);
+    assert_eq!(first, shown(channels, conditions(7), &steps));
+    assert_ne!(first, shown(channels, conditions(8), &steps));
     let lost = first.lines().filter(|line| line.ends_with(", lost")).count();
     assert!(lost > 5, "{first}");
     // Of two messages to the same agent at least one arrives.

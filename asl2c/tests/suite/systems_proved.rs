@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use asl2c::{SystemSession, Verdict, Weather, repeat};
+use asl2c::{NetworkConditions, SystemSession, Verdict, repeat};
 use translator::interpreter::{Environment, Interpreter, Value};
 use translator::syntax::ast::{Operator, Performative, TriggerKind};
 use translator::system::{System, compose, parse_system};
@@ -484,7 +484,8 @@ fn nothing_that_a_run_of_a_system_breaks_is_proved() {
                 Verdict::Fails(way) => {
                     refuted += 1;
                     let system = model.system().unwrap();
-                    let mut session = SystemSession::new(system, Weather::CALM).unwrap();
+                    let mut session =
+                        SystemSession::new(system, NetworkConditions::PERFECT).unwrap();
                     repeated += u32::from(repeat(&mut session, &way.moves, name).is_some());
                 }
                 Verdict::Undecided(_) => undecided += 1,

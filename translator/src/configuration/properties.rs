@@ -5,19 +5,20 @@ use diagnostic::Span;
 use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::{Parsed, Scanner};
+use crate::DeclaredProperty;
 use crate::code::Code;
 use crate::syntax::ast::{FOREIGN_RELATIONS, Name, Number, Relation};
 use crate::syntax::lexer::foreign_relation;
 
 /// A requirement that must hold in every environment and for any number of steps.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Property {
+pub struct Property<F = Formula> {
     /// Its name.
     pub name: Name,
     /// The requirements that it implements.
     pub requirements: Vec<String>,
     /// Its formula.
-    pub formula: Formula,
+    pub formula: F,
     /// The whole declaration.
     pub span: Span,
 }
@@ -136,21 +137,10 @@ const MOST_STEPS: u32 = 1000;
 impl Parser<'_> {
     /// `name [TAG, TAG]: formula;`
     pub(super) fn property(&mut self) -> Parsed<()> {
-        self.scanner.skip_blanks()?;
-        let start = self.scanner.position;
-        let name = self.scanner.word("a property's name")?;
-        let requirements = self.scanner.requirements()?;
-        self.scanner.expect(":")?;
+        let head = self.scanner.property_head()?;
         let formula = self.formula()?;
-        let span = start..self.scanner.position;
-        self.scanner.expect(";")?;
-        let known = &mut self.configuration.properties;
-        if known.iter().any(|property| property.name.text == name.text) {
-            let message = format!("a second property `{}`", name.text);
-            return Err(Code::DeclaredTwice.at(message, name.span));
-        }
-        known.push(Property { name, requirements, formula, span });
-        Ok(())
+        let property = self.scanner.property_end(head, formula)?;
+        property.add_to(&mut self.configuration.properties)
     }
 
     fn formula(&mut self) -> Parsed<Formula> {
@@ -297,9 +287,57 @@ impl Parser<'_> {
     }
 }
 
+/// The part of a property before its formula.
+pub(crate) struct Head {
+    start: usize,
+    pub(crate) name: Name,
+    requirements: Vec<String>,
+}
+
+impl<F> Property<F> {
+    /// Adds it to those that are declared before, whose names are others.
+    pub(crate) fn add_to(self, known: &mut Vec<Self>) -> Parsed<()> {
+        if known.iter().any(|property| property.name.text == self.name.text) {
+            let message = format!("a second property `{}`", self.name.text);
+            return Err(Code::DeclaredTwice.at(message, self.name.span));
+        }
+        known.push(self);
+        Ok(())
+    }
+
+    /// The property as it is written in `text`.
+    pub(crate) fn declared(&self, text: &str) -> DeclaredProperty {
+        let text = text.get(self.span.clone()).unwrap_or_default();
+        let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
+        DeclaredProperty {
+            name: self.name.text.clone(),
+            requirements: self.requirements.clone(),
+            formula: formula.split_whitespace().collect::<Vec<_>>().join(" "),
+        }
+    }
+}
+
 impl Scanner<'_> {
+    /// `name [TAG, TAG]:`
+    pub(crate) fn property_head(&mut self) -> Parsed<Head> {
+        self.skip_blanks()?;
+        let start = self.position;
+        let name = self.word("a property's name")?;
+        let requirements = self.requirements()?;
+        self.expect(":")?;
+        Ok(Head { start, name, requirements })
+    }
+
+    /// A property's end behind its formula.
+    pub(crate) fn property_end<F>(&mut self, head: Head, formula: F) -> Parsed<Property<F>> {
+        let Head { start, name, requirements } = head;
+        let span = start..self.position;
+        self.expect(";")?;
+        Ok(Property { name, requirements, formula, span })
+    }
+
     /// `[REQ-1, REQ-2]`, or empty.
-    pub(crate) fn requirements(&mut self) -> Parsed<Vec<String>> {
+    fn requirements(&mut self) -> Parsed<Vec<String>> {
         self.skip_blanks()?;
         if !self.take("[") {
             return Ok(Vec::new());

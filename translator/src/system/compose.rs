@@ -104,12 +104,8 @@ pub fn compose(
         same_messages(system, &members, &mut errors);
     }
     let properties = system.declared.properties.clone();
-    let declared = properties.iter().map(|property| DeclaredProperty {
-        name: property.name.text.clone(),
-        requirements: property.requirements.clone(),
-        formula: formula_text(&system.text, property),
-    });
-    let mut declared: Vec<DeclaredProperty> = declared.collect();
+    let mut declared: Vec<DeclaredProperty> =
+        properties.iter().map(|property| property.declared(&system.text)).collect();
     declared.extend(system.declared.channels.losses.map(|_| DeclaredProperty {
         name: ROOM.to_owned(),
         requirements: Vec::new(),
@@ -123,12 +119,6 @@ pub fn compose(
         return Ok(composed);
     }
     Err(TranslateError::Refused(gather([(errors, system.source())])))
-}
-
-fn formula_text(text: &str, property: &SystemProperty) -> String {
-    let text = text.get(property.span.clone()).unwrap_or_default();
-    let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
-    formula.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// All agents have the peers and messages of the first, and each peer is one of them.

@@ -15,12 +15,12 @@
 mod compose;
 mod parser;
 
-use diagnostic::{Source, Span};
+use diagnostic::Source;
 
 pub use compose::{Member, System, compose};
 
 use crate::TranslateError;
-use crate::configuration::ExternalTrigger;
+use crate::configuration::{ExternalTrigger, Property};
 use crate::gather::gather;
 use crate::syntax::ast::Name;
 
@@ -73,17 +73,7 @@ impl Default for Channels {
 }
 
 /// A property of a whole system.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SystemProperty {
-    /// Its name.
-    pub name: Name,
-    /// The requirements that it implements.
-    pub requirements: Vec<String>,
-    /// Its formula.
-    pub formula: SystemFormula,
-    /// The whole declaration.
-    pub span: Span,
-}
+pub type SystemProperty = Property<SystemFormula>;
 
 /// Formula of a system's property.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,9 +2,7 @@
 
 use diagnostic::Diagnostic;
 
-use super::{
-    Agent, AgentAction, AgentCause, Channels, Declared, ROOM, SystemFormula, SystemProperty,
-};
+use super::{Agent, AgentAction, AgentCause, Channels, Declared, ROOM, SystemFormula};
 use crate::code::Code;
 use crate::configuration::scanner::{Parsed, Scanner, advice};
 
@@ -160,25 +158,16 @@ impl Parser<'_> {
 
     /// `name [TAG]: formula;`
     fn property(&mut self) -> Parsed<()> {
-        self.scanner.skip_blanks()?;
-        let start = self.scanner.position;
-        let name = self.scanner.word("a property's name")?;
-        let requirements = self.scanner.requirements()?;
-        self.scanner.expect(":")?;
-        let formula = self.formula()?;
-        let span = start..self.scanner.position;
-        self.scanner.expect(";")?;
-        if name.text == ROOM {
+        let head = self.scanner.property_head()?;
+        if head.name.text == ROOM {
             let message = format!("`{ROOM}` is a property that systems have themselves");
-            return Err(Code::ReservedName.at(message, name.span).help("give it another name"));
+            return Err(Code::ReservedName
+                .at(message, head.name.span)
+                .help("give it another name"));
         }
-        let known = &mut self.declared.properties;
-        if known.iter().any(|property| property.name.text == name.text) {
-            let message = format!("a second property `{}`", name.text);
-            return Err(Code::DeclaredTwice.at(message, name.span));
-        }
-        known.push(SystemProperty { name, requirements, formula, span });
-        Ok(())
+        let formula = self.formula()?;
+        let property = self.scanner.property_end(head, formula)?;
+        property.add_to(&mut self.declared.properties)
     }
 
     fn formula(&mut self) -> Parsed<SystemFormula> {

@@ -5,21 +5,20 @@ mod network;
 mod repeat;
 mod script;
 
-use std::collections::VecDeque;
-
 use diagnostic::Diagnostic;
 use translator::TranslateError;
 use translator::interpreter::Value;
 use translator::syntax::ast::Performative;
-use translator::system::System;
+use translator::system::{ROOM, System};
 
 use self::monitor::Monitors;
-pub use self::network::Weather;
+pub use self::network::NetworkConditions;
 use self::network::{ChannelFull, Message, Network};
 pub use self::repeat::repeat;
 use self::script::{Command, parse, words};
+use super::history::History;
 use super::script::{Statement, parse_line};
-use super::session::{KEPT, Session, State};
+use super::session::{Session, State};
 use super::transcript::Runs;
 
 /// Maximum number of lines that a command may show.
@@ -31,7 +30,7 @@ pub struct SystemSession<'a> {
     system: &'a System,
     agents: Vec<Session>,
     now: Now,
-    before: VecDeque<(Vec<State>, Now)>,
+    before: History<(Vec<State>, Now)>,
     broken: Vec<String>,
     ended: bool,
 }
@@ -52,7 +51,7 @@ impl<'a> SystemSession<'a> {
     ///
     /// # Errors
     /// As [`translator::translate`].
-    pub fn new(system: &'a System, weather: Weather) -> Result<Self, TranslateError> {
+    pub fn new(system: &'a System, conditions: NetworkConditions) -> Result<Self, TranslateError> {
         let agents = system.members.iter().map(|member| {
             let mut agent = Session::new(&member.configuration, &member.text)?;
             agent.be_in_a_system(member.peer);
@@ -60,12 +59,12 @@ impl<'a> SystemSession<'a> {
         });
         let agents = agents.collect::<Result<Vec<_>, TranslateError>>()?;
         let now = Now {
-            network: Network::new(system.channels, weather),
+            network: Network::new(system.channels, conditions),
             monitors: Monitors::new(system),
             moved: vec![false; agents.len()],
             round: 1,
         };
-        let (before, broken, ended) = (VecDeque::new(), Vec::new(), false);
+        let (before, broken, ended) = (History::new(), Vec::new(), false);
         Ok(Self { system, agents, now, before, broken, ended })
     }
 
@@ -144,13 +143,12 @@ impl<'a> SystemSession<'a> {
                     self.step(member, shown).map_err(|what| wrong(&what))?;
                     self.end_round_in_time(shown);
                 }
-                Statement::Raise(event, _) => {
-                    let event = event.clone();
-                    let before = shown.len();
-                    self.agent_statement(member, statement, shown).map_err(|what| wrong(&what))?;
-                    // What is refused is shown.
-                    if shown.len() == before {
-                        self.now.monitors.raised(self.system, member, &event);
+                Statement::Raise(event, values) => {
+                    match self.agents[member].raise(event, values.clone()) {
+                        Ok(()) => self.now.monitors.raised(self.system, member, event),
+                        Err(refused) => {
+                            shown.push(format!("// {}: refused: {refused}", self.name(member)));
+                        }
                     }
                 }
                 Statement::Set(..) | Statement::Answer(..) | Statement::Mind => {
@@ -317,10 +315,7 @@ impl<'a> SystemSession<'a> {
     }
 
     fn undo(&mut self, count: u32) -> Result<(), String> {
-        let left = self.before.len().checked_sub(count as usize);
-        let left = left.ok_or("there is not so much to undo")?;
-        let before = self.before.drain(left..).next();
-        if let Some(before) = before {
+        if let Some(before) = self.before.undo(count)? {
             self.restore(before);
         }
         Ok(())
@@ -337,9 +332,6 @@ impl<'a> SystemSession<'a> {
         self.now = now;
     }
 }
-
-/// The property of the model that channels suffice.
-const ROOM: &str = translator::system::ROOM;
 
 /// An error of the whole line.
 fn whole(message: String) -> Diagnostic {
@@ -363,10 +355,7 @@ impl Runs for SystemSession<'_> {
             command,
             Command::Agent { .. } | Command::Step(_) | Command::Deliver(..) | Command::Lose(..)
         ) {
-            self.before.push_back(before);
-            if self.before.len() > KEPT {
-                self.before.pop_front();
-            }
+            self.before.push(before);
         }
         Ok(shown)
     }

@@ -10,7 +10,7 @@ use translator::system::Channels;
 
 /// What the channels of a run do, within their bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Weather {
+pub struct NetworkConditions {
     /// How many messages of a hundred are lost.
     pub loss_percent: u32,
     /// How many rounds a message is late at most.
@@ -19,9 +19,9 @@ pub struct Weather {
     pub seed: u64,
 }
 
-impl Weather {
+impl NetworkConditions {
     /// Nothing is lost or late.
-    pub const CALM: Self = Self { loss_percent: 0, delay_rounds: 0, seed: 1 };
+    pub const PERFECT: Self = Self { loss_percent: 0, delay_rounds: 0, seed: 1 };
 }
 
 /// A message. Agents are indices into the system's members.
@@ -50,7 +50,7 @@ pub(super) struct MustArrive;
 #[derive(Debug, Clone)]
 pub(super) struct Network {
     channels: Channels,
-    weather: Weather,
+    conditions: NetworkConditions,
     random: ChaCha8Rng,
     /// In the order in which they were sent.
     under_way: Vec<Message>,
@@ -59,9 +59,9 @@ pub(super) struct Network {
 }
 
 impl Network {
-    pub(super) fn new(channels: Channels, weather: Weather) -> Self {
-        let random = ChaCha8Rng::seed_from_u64(weather.seed);
-        Self { channels, weather, random, under_way: Vec::new(), lost: BTreeMap::new() }
+    pub(super) fn new(channels: Channels, conditions: NetworkConditions) -> Self {
+        let random = ChaCha8Rng::seed_from_u64(conditions.seed);
+        Self { channels, conditions, random, under_way: Vec::new(), lost: BTreeMap::new() }
     }
 
     /// A message is sent.
@@ -72,7 +72,7 @@ impl Network {
         values: Vec<Value>,
         round: u64,
     ) -> Result<(), ChannelFull> {
-        let Weather { loss_percent, delay_rounds, .. } = self.weather;
+        let NetworkConditions { loss_percent, delay_rounds, .. } = self.conditions;
         let due = round + u64::from(self.random.random_range(0..=delay_rounds));
         let will_be_lost = self.random.random_range(0..100) < loss_percent;
         let load = self.between(from, to).count();
@@ -126,7 +126,7 @@ impl Network {
         Ok(self.under_way.remove(place))
     }
 
-    /// The place of a message that the weather lets arrive or be lost at the end of a round, and whether it is lost.
+    /// The place of a message that arrives or is lost at the end of a round, and whether it is lost.
     pub(super) fn due(&self, round: u64) -> Option<(usize, bool)> {
         let place = self.under_way.iter().position(|message| message.due <= round)?;
         Some((place, self.under_way[place].will_be_lost))
