@@ -50,6 +50,7 @@ pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
 pub use comparison::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
+pub use configuration::DeclaredProperty;
 use configuration::{Configuration, Instance};
 pub use counterexample::{CounterexampleStep, Move, UnderWay};
 use diagnostic::Source;
@@ -58,7 +59,7 @@ pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exer
 pub use format::format;
 use gather::gather;
 pub use model::Model;
-pub use obligations::{ANSWERS, CALLS, DeclaredProperty, HARNESS, Obligations, STEPS};
+pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
 pub use reserved::{is_c_word, is_library as is_c_library};

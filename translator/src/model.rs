@@ -1,7 +1,7 @@
 //! Model of an agent, or of a system of agents, for the model checker SPIN.
 
-use crate::DeclaredProperty;
 use crate::backend::promela::{PROPERTY, emit, emit_system};
+use crate::configuration::DeclaredProperty;
 use crate::counterexample::{CounterexampleStep, Move, moves, of_agent, of_system};
 use crate::program::Program;
 use crate::system::System;

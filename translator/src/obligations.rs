@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use crate::GeneratedFile;
 use crate::backend::c::Moment;
+use crate::configuration::DeclaredProperty;
 
 pub use crate::backend::c::{ANSWERS, CALLS, STEPS};
 
@@ -31,18 +32,6 @@ pub struct Obligations {
     pub(crate) moments: Vec<Moment>,
     /// The properties: each has an assertion `property NAME`.
     pub properties: Vec<DeclaredProperty>,
-}
-
-/// A property as declared.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct DeclaredProperty {
-    /// Its name.
-    pub name: String,
-    /// The requirements that it implements.
-    pub requirements: Vec<String>,
-    /// Its formula, with single blanks.
-    pub formula: String,
 }
 
 impl Obligations {

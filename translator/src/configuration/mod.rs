@@ -34,7 +34,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use diagnostic::Span;
 
 pub use parser::{SECTIONS, parse};
-pub use properties::{CallBound, Cause, Comparison, Formula, Operand, Property};
+pub use properties::{CallBound, Cause, Comparison, DeclaredProperty, Formula, Operand, Property};
 pub use settings::SETTINGS;
 
 use crate::syntax::ast::{Name, Operator, Performative, TriggerKind};

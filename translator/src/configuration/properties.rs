@@ -5,7 +5,6 @@ use diagnostic::Span;
 use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::{Parsed, Scanner};
-use crate::DeclaredProperty;
 use crate::code::Code;
 use crate::syntax::ast::{FOREIGN_RELATIONS, Name, Number, Relation};
 use crate::syntax::lexer::foreign_relation;
@@ -21,6 +20,18 @@ pub struct Property<F = Formula> {
     pub formula: F,
     /// The whole declaration.
     pub span: Span,
+}
+
+/// A property as declared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DeclaredProperty {
+    /// Its name.
+    pub name: String,
+    /// The requirements that it implements.
+    pub requirements: Vec<String>,
+    /// Its formula, with single blanks.
+    pub formula: String,
 }
 
 /// Formula of a property. Actions are basic actions or classes of them.

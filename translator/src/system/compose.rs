@@ -4,11 +4,11 @@ use diagnostic::{Diagnostic, closest};
 
 use super::{AgentAction, AgentCause, Channels, ParsedSystem, ROOM, SystemFormula, SystemProperty};
 use crate::code::Code;
-use crate::configuration::{ExternalTrigger, Message};
+use crate::configuration::{DeclaredProperty, ExternalTrigger, Message};
 use crate::gather::gather;
 use crate::program::{Program, trigger_text};
 use crate::syntax::ast::Name;
-use crate::{DeclaredProperty, ParsedConfiguration, TranslateError, check};
+use crate::{ParsedConfiguration, TranslateError, check};
 
 /// A system whose agents can be translated and fit each other.
 #[derive(Debug)]
