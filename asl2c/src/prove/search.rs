@@ -1,8 +1,10 @@
 //! Searches for counterexamples to what could not be proved.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use translator::configuration::Formula;
 use translator::{CounterexampleStep, ParsedConfiguration};
 
 use super::cbmc::{Cbmc, Failure};
@@ -62,28 +64,30 @@ pub(crate) fn search(
 ) -> Result<Vec<Searched>, ProveError> {
     // A limit that no clock can show is none.
     let until = Instant::now().checked_add(limits.time);
+    let fewest_of = |failure: &Failure| fewest_transitions(configuration, failure);
     let mut results: Vec<Searched> = proof
         .open
         .iter()
         .map(|failure| Searched {
             property: failure.property().map(str::to_owned),
             said: failure.said.clone(),
-            found: Found::None(0),
+            found: Found::None((fewest_of(failure) - 1).min(limits.transitions)),
         })
         .collect();
     let declared = configuration.declarations();
-    let mut length = 0;
-    while length < limits.transitions {
-        length = if length == 0 { 4 } else { length * 2 }.min(limits.transitions);
-        let open = |(_, result): &(&Failure, &Searched)| matches!(result.found, Found::None(_));
+    for length in lengths(proof.open.iter().map(fewest_of), limits.transitions) {
+        let is_sought = |failure: &Failure, result: &Searched| {
+            matches!(result.found, Found::None(_)) && fewest_of(failure) <= length
+        };
+        let open = |(failure, result): &(&Failure, &Searched)| is_sought(failure, result);
         let wanted = proof.open.iter().zip(&results).filter(open);
         let wanted: Vec<&Failure> = wanted.map(|(failure, _)| failure).collect();
         if wanted.is_empty() {
-            break;
+            continue;
         }
         let Some(traces) = cbmc.ways(folder, &wanted, length, until)? else { break };
         for (failure, result) in proof.open.iter().zip(&mut results) {
-            if !matches!(result.found, Found::None(_)) {
+            if !is_sought(failure, result) {
                 continue;
             }
             let trace = traces.iter().find(|trace| trace.name == failure.name);
@@ -104,6 +108,25 @@ pub(crate) fn search(
         }
     }
     Ok(results)
+}
+
+/// No execution of fewer events, beliefs and steps breaks what failed: after its cause, `within(n, ..)` waits for n steps.
+fn fewest_transitions(configuration: &ParsedConfiguration, failure: &Failure) -> u32 {
+    let properties = configuration.declarations().properties.iter();
+    let mut named = properties.filter(|one| failure.property() == Some(one.name.text.as_str()));
+    match named.next().map(|property| &property.formula) {
+        Some(Formula::Within { steps, .. }) => (*steps).max(1),
+        _ => 1,
+    }
+}
+
+/// The lengths of the executions that are searched, each longer than the one before. What takes many transitions at least is
+/// often broken soon after: the formula of a length twice as large takes several times as long.
+fn lengths(fewest: impl Iterator<Item = u32>, most: u32) -> BTreeSet<u32> {
+    let doubled = std::iter::successors(Some(4_u32), |length| length.checked_mul(2));
+    let soon = fewest.filter(|fewest| *fewest > 4).map(|fewest| fewest.saturating_add(1));
+    let all = doubled.chain(soon).chain([most]);
+    all.filter(|length| *length <= most).collect()
 }
 
 /// Replaces a counterexample by one with the fewest transitions, as far as there is time. There is none with as many as
