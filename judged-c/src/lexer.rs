@@ -7,7 +7,7 @@ use diagnostic::is_printable;
 use crate::refused::{Refused, Rule};
 
 /// Place of a word in the text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub(crate) struct Place {
     pub(crate) line: u32,
     pub(crate) column: u32,

@@ -31,9 +31,10 @@ pub use self::refused::{Refused, Rule};
 #[must_use = "it has to be compared"]
 pub struct Judged {
     text: String,
-    checked: String,
+    compared: String,
     arbitrary: String,
     names: Vec<String>,
+    computes_floats: bool,
 }
 
 impl Judged {
@@ -53,9 +54,10 @@ impl Judged {
         &self.arbitrary
     }
 
-    /// Puts the C in the place of the translation, with checks that each index is inside its array.
+    /// Puts the C in the place of the translation, with checks that each index is inside its array, and with the
+    /// comparison's functions in place of floating-point operators.
     pub fn put_into(self, comparison: &mut Comparison) {
-        comparison.replace_c(self.checked, &self.arbitrary, &self.names);
+        comparison.replace_c(self.compared, &self.arbitrary, &self.names, self.computes_floats);
     }
 }
 
@@ -81,8 +83,9 @@ pub fn judge<'a>(
     })?;
     let macros: HashSet<String> = headers.into_iter().flat_map(macros).collect();
     let unit = parser::parse(text, &language.types())?;
-    let names = check::check(&unit, &language, &macros)?;
-    let (text, arbitrary) = print::print(&unit, &language, false);
-    let (checked, _) = print::print(&unit, &language, true);
-    Ok(Judged { text, checked, arbitrary, names: names.into_keys().collect() })
+    let known = check::check(&unit, &language, &macros)?;
+    let (text, arbitrary) = print::print(&unit, &language, None);
+    let (compared, _) = print::print(&unit, &language, Some(&known.floats));
+    let names = known.names.into_keys().collect();
+    Ok(Judged { text, compared, arbitrary, names, computes_floats: !known.floats.is_empty() })
 }

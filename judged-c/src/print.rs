@@ -3,6 +3,9 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;
 
+use translator::{float_function, float_operators};
+
+use crate::check::Floats;
 use crate::language::Language;
 use crate::tree::{
     Block, Definition, Expression, Function, Item, Object, Parameter, Prefix, Statement, Type,
@@ -15,12 +18,16 @@ use crate::types::Ty;
 pub const CHECKED_INDEX: &str = "static unsigned long long plain_index(unsigned long long plain_i, unsigned long long plain_n) \
     { __CPROVER_assert(plain_i < plain_n, \"a possible error at run time: an index is outside its array\"); return plain_i; }";
 
-/// The text of a file, and statements that make its state arbitrary, but for that which is generated. With checks of indices,
-/// which compilers leave out, it is no longer of the language.
-pub(crate) fn print(unit: &Unit, language: &Language, is_checked: bool) -> (String, String) {
+/// The text of a file, and statements that make its state arbitrary, but for that which is generated. To be `compared`, it has
+/// checks of indices, which compilers leave out, and functions in place of these operators: it is no longer of the language.
+pub(crate) fn print(
+    unit: &Unit,
+    language: &Language,
+    compared: Option<&Floats>,
+) -> (String, String) {
     let mut printer = Printer {
         language,
-        is_checked,
+        compared,
         taken: names(unit),
         renamed: HashMap::new(),
         text: String::new(),
@@ -29,10 +36,11 @@ pub(crate) fn print(unit: &Unit, language: &Language, is_checked: bool) -> (Stri
     for line in &unit.lines {
         _ = writeln!(printer.text, "{}", line.text);
     }
-    if is_checked {
+    if compared.is_some() {
         _ = writeln!(
             printer.text,
-            "#ifdef __CPROVER__\n{CHECKED_INDEX}\n#else\n#define plain_index(plain_i, plain_n) (plain_i)\n#endif"
+            "#ifdef __CPROVER__\n{CHECKED_INDEX}\n#else\n#define plain_index(plain_i, plain_n) (plain_i)\n{}#endif",
+            float_operators()
         );
     }
     for item in &unit.items {
@@ -44,7 +52,7 @@ pub(crate) fn print(unit: &Unit, language: &Language, is_checked: bool) -> (Stri
 
 struct Printer<'a> {
     language: &'a Language,
-    is_checked: bool,
+    compared: Option<&'a Floats>,
     /// All names of the file.
     taken: BTreeSet<String>,
     /// Static objects of the current function, which are printed outside of it.
@@ -293,7 +301,12 @@ impl Printer<'_> {
                 format!("{sign}{blank}{operand}")
             }
             What::Binary(sign, left, right) => {
-                format!("{} {sign} {}", self.expression(left), self.expression(right))
+                let (left, right) = (self.expression(left), self.expression(right));
+                let kind = self.compared.and_then(|floats| floats.get(&expression.place));
+                match kind.and_then(|kind| float_function(sign, *kind)) {
+                    Some(function) => format!("{function}({left}, {right})"),
+                    None => format!("{left} {sign} {right}"),
+                }
             }
             What::Parentheses(inside) => format!("({})", self.expression(inside)),
             What::Cast(ctype, operand) => {
@@ -305,7 +318,7 @@ impl Printer<'_> {
             What::Index(of, index) => {
                 let (of, number) = (self.expression(of), self.expression(index));
                 // A number is known to be inside.
-                if self.is_checked && !matches!(index.what, What::Integer(_)) {
+                if self.compared.is_some() && !matches!(index.what, What::Integer(_)) {
                     format!("{of}[plain_index({number}, sizeof ({of}) / sizeof ({of}[0]))]")
                 } else {
                     format!("{of}[{number}]")

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::GeneratedFile;
 
 use crate::backend::c::NO_OWN_STATE;
-pub use crate::backend::c::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
+pub use crate::backend::c::{END, ENOUGH_ROOM, ROOM};
 
 /// The file of a comparison that includes all others.
 pub const COMPARISON: &str = "comparison.c";
@@ -18,7 +18,7 @@ pub const COMPARISON: &str = "comparison.c";
 /// starts. `main` is an execution from the start.
 ///
 /// Other variables with static lifetime must be arbitrary in all of them but `main`, because the relation does
-/// not know them. With [`ONLY_END`] defined, each but `plain_cover` must fail.
+/// not know them. In each but `plain_cover` the assertion [`END`] must fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 #[must_use = "the comparison has to be proved"]
@@ -29,15 +29,25 @@ pub struct Comparison {
     pub cases: Vec<String>,
     /// A bound for all loops of the functions, but for that of `main`.
     pub unwinding: usize,
+    /// Whether one of the two computes floating-point numbers: [`ANY_FLOATS`](crate::ANY_FLOATS) changes nothing otherwise.
+    pub computes_floats: bool,
 }
 
 impl Comparison {
     /// Compares another C file in place of the translation, with statements that give any value to all objects that the
-    /// relation does not know, and the names in the file: none of them may be a macro.
+    /// relation does not know, and the names in the file: none of them may be a macro. Whether it `computes_floats` is
+    /// told, too.
     ///
     /// The C must be of a language that is known, because a model checker may misjudge other C: the crate `judged-c`
     /// parses and prints it.
-    pub fn replace_c(&mut self, text: String, arbitrary: &str, names: &[String]) {
+    pub fn replace_c(
+        &mut self,
+        text: String,
+        arbitrary: &str,
+        names: &[String],
+        computes_floats: bool,
+    ) {
+        self.computes_floats |= computes_floats;
         let c = &mut self.files[0];
         c.text = text;
         let included = format!("#include \"{}\"\n", c.name);

@@ -49,7 +49,7 @@ pub use backend::c::{ROUNDED, include_path};
 pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
-pub use comparison::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
+pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 pub use configuration::DeclaredProperty;
 use configuration::{Configuration, Instance};
 pub use counterexample::{CounterexampleStep, Move, UnderWay};
@@ -60,6 +60,7 @@ pub use format::format;
 use gather::gather;
 pub use model::Model;
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, STEPS};
+pub use plain::{ANY_FLOATS, float_function, float_operators};
 pub use report::Report;
 use reserved::is_rust_word;
 pub use reserved::{is_c_word, is_library as is_c_library};
@@ -285,6 +286,7 @@ pub fn comparison_after(
         files,
         cases: backend::c::cases(&program),
         unwinding: backend::c::unwinding(&program),
+        computes_floats: plain::calls_float_functions(&plain::functions(&program)),
     })
 }
 

@@ -43,6 +43,11 @@ impl Failure {
     pub(crate) fn property(&self) -> Option<&str> {
         self.said.strip_prefix(PROPERTY)
     }
+
+    /// Whether it is an assertion of a text, and not a check of CBMC's own.
+    pub(crate) fn is_asserted(&self) -> bool {
+        self.name.contains(".assertion.")
+    }
 }
 
 /// What CBMC printed. Errors are kept apart: in the middle of a line they would hide a result.

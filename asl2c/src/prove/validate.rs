@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::configuration::Configuration;
-use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
+use translator::{ANY_FLOATS, COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 
 use super::cbmc::{Cbmc, Failure};
 use super::goals::Place;
@@ -192,11 +192,11 @@ fn is_difference(said: &str) -> bool {
 }
 
 /// What is not proved. CBMC words its own checks as if everybody knew that they are about errors.
-fn said(Failure { name, said }: Failure) -> String {
-    if is_difference(&said) && !name.contains(".assertion.") {
-        format!("a possible error at run time: {said}")
+fn said(failure: Failure) -> String {
+    if is_difference(&failure.said) && !failure.is_asserted() {
+        format!("a possible error at run time: {}", failure.said)
     } else {
-        said
+        failure.said
     }
 }
 
@@ -208,38 +208,47 @@ fn prove(
     function: &str,
     give_up: impl Fn() -> bool,
 ) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
-    let run = |room: u32, more: &[&str]| {
+    let run = |room: u32, more: &[&str], goals| {
         let mut arguments = arguments(comparison, room);
         // The relation does not know other variables than those of the state, and a loop that never ends must not be
         // taken for one that is never entered.
-        arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
+        arguments.extend(
+            ["--nondet-static", "--no-self-loops-to-assumptions", "--slice-formula"]
+                .map(str::to_owned),
+        );
         arguments.extend(more.iter().copied().map(str::to_owned));
-        // What is asked of one assertion is asked again of all.
-        let goals = if more.is_empty() { Place::Before } else { Place::Nowhere };
         cbmc.failures(folder, (COMPARISON, function), &arguments, goals, &give_up)
     };
-    let only = |asked: &str, room: u32| {
-        let define = format!("-D{asked}");
-        run(
-            room,
-            &["--no-standard-checks", "--no-unwinding-assertions", "--slice-formula", &define],
-        )
-    };
+    let any_floats = format!("-D{ANY_FLOATS}");
     let mut room = *ROOMS.start();
-    // A bound of the loops may be reached here, and more room be needed than is found.
-    while room < *ROOMS.end() {
-        let Some(found) = only(ONLY_ROOM, room)? else { return Ok(None) };
-        if found.is_empty() {
-            break;
+    let mut found = loop {
+        let Some(found) = run(room, &[&any_floats], Place::Before)? else { return Ok(None) };
+        if room >= *ROOMS.end() || !found.iter().any(|failure| failure.said == ENOUGH_ROOM) {
+            break found;
         }
         room *= 2;
-    }
-    let Some(mut found) = run(room, &[])? else { return Ok(None) };
-    if function != COVER && found.is_empty() {
-        let Some(reached) = only(ONLY_END, room)? else { return Ok(None) };
-        if reached.is_empty() {
-            found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
+    };
+    let is_end = |failure: &Failure| failure.said == END;
+    let comes_to_end = function == COVER || found.iter().any(is_end);
+    found.retain(|failure| !is_end(failure));
+    if !found.is_empty() && comparison.computes_floats {
+        // What differs may differ for results that no operation has. That it does not is asked of all assertions.
+        let again = if found.iter().all(Failure::is_asserted) {
+            let names = found.iter().flat_map(|failure| ["--property", &failure.name]);
+            run(room, &names.collect::<Vec<_>>(), Place::Nowhere)?
+        } else {
+            Some(Vec::new())
+        };
+        let Some(again) = again else { return Ok(None) };
+        found = again;
+        if found.is_empty() {
+            let Some(exact) = run(room, &[], Place::Before)? else { return Ok(None) };
+            found = exact;
+            found.retain(|failure| !is_end(failure));
         }
+    }
+    if found.is_empty() && !comes_to_end {
+        found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
     }
     Ok(Some((found, room)))
 }

@@ -11,6 +11,7 @@ mod edited;
 mod environment;
 mod files;
 mod first_agent;
+mod floats;
 mod fmt;
 mod gallery;
 mod guide;

@@ -1,5 +1,7 @@
 //! Types of expressions, and which of their parts may be evaluated in any order.
 
+use translator::types::TypeKind;
+
 use super::effects::{operands, root};
 use super::{Checked, Checker, inner, require, shown};
 use crate::language::Owner;
@@ -161,7 +163,12 @@ impl Checker<'_> {
                 require(floats || integers.is_some(), sign, place, Rule::Operation)?;
                 Ok(Ty::Bool.into())
             }
-            _ if floats && sign != "%" => Ok(left.ty.into()),
+            _ if floats && sign != "%" => {
+                let kind =
+                    if left.ty == Ty::Float32 { TypeKind::Float32 } else { TypeKind::Float64 };
+                self.floats.insert(place, kind);
+                Ok(left.ty.into())
+            }
             _ => {
                 let Some(ty) = integers else { return Err(refused(sign, place, Rule::Operation)) };
                 let value = computed(sign, left.value, right.value, &ty)

@@ -6,6 +6,8 @@ mod statement;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use translator::types::TypeKind;
+
 use self::effects::effects;
 pub(crate) use self::effects::operands;
 use crate::language::{Language, Owner, Signature};
@@ -63,14 +65,21 @@ struct Checker<'a> {
     declared: HashMap<String, bool>,
     /// Names of the file and their first places.
     names: BTreeMap<String, Place>,
+    floats: Floats,
 }
 
-/// Checks a file. Returns the names in it that the preprocessor must not know.
-pub(crate) fn check(
-    unit: &Unit,
-    language: &Language,
-    macros: &HashSet<String>,
-) -> Checked<BTreeMap<String, Place>> {
+/// Places of operators on floating-point numbers, with the type of both operands.
+pub(crate) type Floats = HashMap<Place, TypeKind>;
+
+/// What is known of a file of the language.
+pub(crate) struct Known {
+    /// Names in it, which the preprocessor must not know, and their first places.
+    pub(crate) names: BTreeMap<String, Place>,
+    pub(crate) floats: Floats,
+}
+
+/// Checks a file.
+pub(crate) fn check(unit: &Unit, language: &Language, macros: &HashSet<String>) -> Checked<Known> {
     for (index, line) in unit.lines.iter().enumerate() {
         let same = language.lines.get(index) == Some(&line.text);
         require(same, &line.text, line.place, Rule::Preprocessor)?;
@@ -91,6 +100,7 @@ pub(crate) fn check(
         result: Ty::Void,
         declared: HashMap::new(),
         names: BTreeMap::new(),
+        floats: Floats::new(),
     };
     for item in &unit.items {
         checker.item(item)?;
@@ -98,7 +108,7 @@ pub(crate) fn check(
     checker.end(unit.end)?;
     let words = WORDS.into_iter().filter(|word| !matches!(*word, "bool" | "true" | "false"));
     checker.names.extend(words.map(|word| (word.to_owned(), Place::default())));
-    Ok(checker.names)
+    Ok(Known { names: checker.names, floats: checker.floats })
 }
 
 /// Names of the comparison's own: its functions, variables and macros, and the state that it passes.

@@ -5,12 +5,15 @@
 //! the basic action `N`, and `plain_update()` in place of `updateBeliefs()`.
 
 mod cycle;
+mod floats;
 mod messages;
 mod plans;
 
 use std::fmt::Write as _;
 
 pub(crate) use self::cycle::{event_number, goal_number, is_queue, length, perceived, preempting};
+pub use self::floats::{ANY_FLOATS, float_function, float_operators};
+pub(crate) use self::floats::{calls_float_functions, float_functions};
 pub(crate) use self::messages::TURNS;
 use crate::program::Program;
 

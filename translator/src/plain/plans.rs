@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use super::floats::float_function;
 use crate::program::{
     Alternatives, Belief, BeliefId, Call, Condition, Handler, HandlerId, Operation, Pattern, Plan,
     Program, Raise, Step, Value, VariableId,
@@ -327,7 +328,11 @@ impl<'a> Function<'a> {
                 // Neither zero nor NaN.
                 self.unless(&format!("(({right} < 0) || ({right} > 0))"), label);
             }
-            self.line(format!("{name} = {left} {symbol} {right};"));
+            let value = match float_function(symbol, ctype.kind) {
+                Some(function) => format!("{function}({left}, {right})"),
+                None => format!("{left} {symbol} {right}"),
+            };
+            self.line(format!("{name} = {value};"));
             return name;
         };
         if is_division {

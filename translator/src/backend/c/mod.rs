@@ -34,7 +34,7 @@ use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
 
-pub use self::equivalence::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
+pub use self::equivalence::{END, ENOUGH_ROOM, ROOM};
 pub(crate) use self::equivalence::{NO_OWN_STATE, cases, comparison, unwinding};
 pub use self::exercise::{EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS};
 pub(crate) use self::exercise::{

@@ -15,7 +15,7 @@ use crate::types::{CType, TypeKind};
 impl Comparison<'_> {
     /// The function `plain_beginning()`; its calls and answers are recorded in the trace.
     pub(super) fn begin(&self, text: &mut String) {
-        text.push_str("static void plain_beginning(void)\n{\n    plain_watched = UINT32_MAX;\n");
+        text.push_str("static void plain_beginning(void)\n{\n    plain_watched = PLAIN_NEVER;\n");
         for (number, basic) in self.program.configuration.basics.iter().enumerate() {
             if basic.result.kind != TypeKind::Void {
                 let zero = literal(self.program, None, &basic.result);

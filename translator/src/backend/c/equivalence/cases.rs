@@ -35,7 +35,7 @@ impl Comparison<'_> {
         let mut before = Fields::new();
         for trigger in &program.configuration.preemptive {
             if let Some((_, external)) = plain::preempting(program, trigger) {
-                let flag = self.names.field(&pending(Slot::Preemptive, &external_name(external)));
+                let flag = self.field(&pending(Slot::Preemptive, &external_name(external)));
                 let fields = with(&before, [(flag.clone(), "true".to_owned())]);
                 cases.push(Case { name: format!("{} pre-empts", written(external)), fields });
                 before.push((flag, "false".to_owned()));
@@ -45,7 +45,7 @@ impl Comparison<'_> {
                 self.asked(asked, "pre-empts", &mut before, &mut cases);
             }
         }
-        let posted = self.names.field("posted");
+        let posted = self.field("posted");
         for id in &program.posted {
             let event = self.event(Slot::Posted, &handler_name(program, *id));
             let fields = with(&before, [(posted.clone(), event)]);
@@ -54,7 +54,7 @@ impl Comparison<'_> {
                 cases.push(Case { name, fields });
                 continue;
             }
-            let limited = self.names.field("limited");
+            let limited = self.field("limited");
             for limit in &program.limited {
                 let event = self.event(Slot::Deadline, &handler_name(program, *limit));
                 cases.push(Case {
@@ -67,7 +67,7 @@ impl Comparison<'_> {
         before.push((posted, none));
         for (belief, handler) in plain::perceived(program) {
             let flag = pending(Slot::Perceived, &handler_name(program, handler));
-            let flag = self.names.field(&flag);
+            let flag = self.field(&flag);
             let fields = with(&before, [(flag.clone(), "true".to_owned())]);
             cases.push(Case { name: format!("+{} is perceived", belief.name), fields });
             before.push((flag, "false".to_owned()));
@@ -91,7 +91,7 @@ impl Comparison<'_> {
         }
         for told in noticed(program) {
             let name = told_name(program, told);
-            let flag = self.names.field(&pending(Slot::Told, name));
+            let flag = self.field(&pending(Slot::Told, name));
             let fields = with(before, [(flag.clone(), "true".to_owned())]);
             cases.push(Case { name: format!("a change of {name} waits"), fields });
             before.push((flag, "false".to_owned()));
@@ -101,7 +101,7 @@ impl Comparison<'_> {
     /// A goal of a peer, by how many of them wait.
     fn asked(&self, asked: &Asked, how: &str, before: &mut Fields, cases: &mut Vec<Case>) {
         let name = asked_name(self.program, asked);
-        let count = self.names.field(&ring_field(self.program, asked, "count"));
+        let count = self.field(&ring_field(self.program, asked, "count"));
         for waiting in 1..=asked.room {
             let fields = with(before, [(count.clone(), format!("{waiting}U"))]);
             cases.push(Case { name: format!("+!{name} {how} ({waiting} of them)"), fields });
@@ -129,7 +129,7 @@ impl Comparison<'_> {
     /// event depends on more than constants, and CBMC executes the plans of all events instead of one's.
     fn first(&self, ring: &Ring, events: &[Event], before: &mut Fields, cases: &mut Vec<Case>) {
         let [first, count, queue] =
-            ["first", "count", "queue"].map(|part| self.names.field(&ring.field(part)));
+            ["first", "count", "queue"].map(|part| self.field(&ring.field(part)));
         for (event, text) in events {
             if ring.length > LONGEST {
                 let fields = with(before, [(format!("{queue}[{first}]"), event.clone())]);

@@ -4,12 +4,12 @@
 //! also call anything for other instances whenever it has control. No such sequence is executed: each call of a setter
 //! alone is a transition of its own, which changes nothing but its belief and from any related state does what the plain
 //! one does. Hence setters of several beliefs commute, and what any number of calls leaves is what one call for each
-//! belief leaves, or two for one whose changes are perceived: there and back again. Objects which the relation does not
-//! know are arbitrary afterwards.
+//! belief leaves, or two for one whose changes are perceived: there and back again. Where they are not perceived, a value
+//! is simply arbitrary afterwards. Objects which the relation does not know are arbitrary, too.
 
 use std::fmt::Write as _;
 
-use super::Comparison;
+use super::{Comparison, END, WATCH};
 use crate::backend::c::host::{Call, changes, choose, counts, record};
 use crate::backend::c::names::{listed, typed_arguments};
 use crate::backend::c::said::{ring_field, ring_parts};
@@ -65,6 +65,10 @@ impl Comparison<'_> {
         let any_bool = self.any(&CType::named("bool"));
         for belief in self.program.settable() {
             let name = &belief.name;
+            if belief.perceived.is_none() {
+                self.update(text, &mut plainly, belief);
+                continue;
+            }
             for call in 0..calls(belief) {
                 let chosen = format!("plain_updates_{name}_{call}");
                 _ = writeln!(text, "    {chosen} = !plain_searching && {any_bool};");
@@ -84,6 +88,29 @@ impl Comparison<'_> {
             text,
             "    plain_controlled();\n}}\nstatic void plain_update(void)\n{{\n    (void)plain_expected(0);\n{plainly}}}\n"
         );
+    }
+
+    /// What calls of a setter may leave, and more: the belief may be held, and its value is arbitrary. With the same new
+    /// values in both, instead of what two setters leave of their old ones, all that is computed from them begins the same.
+    fn update(&self, text: &mut String, plainly: &mut String, belief: &Belief) {
+        let name = &belief.name;
+        let chosen = format!("plain_updates_{name}_0");
+        let any_bool = self.any(&CType::named("bool"));
+        _ = writeln!(text, "    if (!plain_searching) {{\n        {chosen} = {any_bool};");
+        let field = self.field(&held(name));
+        _ = writeln!(text, "        {field} = {field} || {chosen};");
+        _ = writeln!(
+            plainly,
+            "    if (!plain_searching) {{\n        plain.held_{name} = plain.held_{name} || {chosen};"
+        );
+        for (index, ctype) in belief.types.iter().enumerate() {
+            let value = format!("plain_update_{name}_0_{index}");
+            _ = writeln!(text, "        {value} = {};", self.any(ctype));
+            _ = writeln!(text, "        {} = {value};", self.field(&belief_value(name, index)));
+            _ = writeln!(plainly, "        plain.value_{name}_{index} = {value};");
+        }
+        text.push_str("    }\n");
+        plainly.push_str("    }\n");
     }
 
     /// One call outside of a step.
@@ -121,6 +148,8 @@ impl Comparison<'_> {
                     writer.line(same_result(&made, &format!("plain.{counter}"), &name));
                 }
             }
+            // Before the ways meet, so that the state need not be chosen by the way.
+            writer.line("plain_compare();");
         };
         let mut writer = Writer::default();
         let calls = changes(self.program).chain([Call::Clear, Call::Room]);
@@ -134,7 +163,6 @@ impl Comparison<'_> {
             make,
             &[],
         );
-        writer.line("plain_compare();");
         writer.close("}");
         writer.line("");
         text.push_str(&writer.finish());
@@ -163,11 +191,11 @@ impl Comparison<'_> {
             if changed.contains(&field.name) {
                 continue;
             }
-            let (now, before) = (self.names.field(&field.name), format!("before.{}", field.name));
+            let (now, before) = (self.field(&field.name), format!("before.{}", field.name));
             let mut add = |now: String, before: String| {
                 same.push(match &field.content {
                     FieldType::Value(ctype) => self.same(ctype, &now, &before),
-                    _ => format!("{now} == {before}"),
+                    _ => format!("({now} == {before})"),
                 });
             };
             match field.length {
@@ -176,7 +204,8 @@ impl Comparison<'_> {
                 None => add(now, before),
             }
         }
-        same.join("\n            && ")
+        // Without `&&`, whose order would be executed.
+        same.join("\n            & ")
     }
 
     /// The start: `init()` of memory that holds anything.
@@ -186,7 +215,7 @@ impl Comparison<'_> {
         _ = writeln!(
             text,
             "int plain_base(void)\n{{\n    plain_any_environment();\n    {{ {state} any; {place} = any; }}\n{init}    \
-             plain_compare();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
+             plain_compare();\n    plain_assert(false, \"{END}\");\n    return 0;\n}}\n"
         );
     }
 
@@ -215,10 +244,7 @@ impl Comparison<'_> {
         if self.names.is_context() {
             text.push_str("    { void *any; plain_environment = any; }\n");
         }
-        _ = writeln!(
-            text,
-            "    plain_searching = false;\n    plain_restart();\n    plain_watched = {number};\n}}\n"
-        );
+        _ = writeln!(text, "    plain_searching = false;\n    plain_restart();\n    {WATCH}\n}}\n");
         text.push_str("static void plain_havoc(void)\n{\n    plain_any_environment();\n");
         let event = self.names.interface("event_t");
         for field in layout(self.program).fields {
@@ -229,7 +255,7 @@ impl Comparison<'_> {
                 FieldType::Event => format!("({event}){number}"),
                 FieldType::Value(ctype) => self.any(ctype),
             };
-            let place = self.names.field(&field.name);
+            let place = self.field(&field.name);
             match field.length {
                 Some(length) => {
                     for slot in 0..length {
@@ -242,12 +268,12 @@ impl Comparison<'_> {
         // An index, even in states that are not well-formed.
         for asked in &self.program.asked {
             if ring_parts(self.program, asked).contains(&"first") {
-                let first = self.names.field(&ring_field(self.program, asked, "first"));
+                let first = self.field(&ring_field(self.program, asked, "first"));
                 _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", asked.room);
             }
         }
         for ring in rings(self.program) {
-            let first = self.names.field(&ring.field("first"));
+            let first = self.field(&ring.field("first"));
             _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", ring.length);
         }
         text.push_str(

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::Comparison;
+use super::{Comparison, ENOUGH_ROOM};
 use crate::backend::c::said::{asked_name, asked_types, ring_field, told_name, turns};
 use crate::backend::c::state::{
     Ring, Slot, belief_value, counters, deferred_ring, external_name, handler_name, held,
@@ -54,7 +54,7 @@ impl Comparison<'_> {
         self.list(&mut relation);
         self.goals(&mut relation);
         for counter in counters(self.program) {
-            relation.number(counter.name, counter.name, &self.names.field(counter.name));
+            relation.number(counter.name, counter.name, &self.field(counter.name));
         }
         let read = &relation.read;
         let mut text =
@@ -87,6 +87,7 @@ impl Comparison<'_> {
         _ = writeln!(
             text,
             "    return related;\n}}\n\nstatic void plain_compare(void)\n{{\n{read}    \
+             plain_assert(plain_made != PLAIN_NEVER, \"{ENOUGH_ROOM}\");\n    \
              plain_assert(plain_repeated == plain_made, \"another call, or none\");"
         );
         for (name, condition) in conditions {
@@ -100,7 +101,7 @@ impl Comparison<'_> {
         for belief in &self.program.beliefs {
             let name = &belief.name;
             let place = format!("held_{name}");
-            relation.number(&format!("belief {name}"), &place, &self.names.field(&held(name)));
+            relation.number(&format!("belief {name}"), &place, &self.field(&held(name)));
             // The last values of what a peer took back matter until that is noticed.
             let told = self.program.told.iter().enumerate().find(|(_, told)| {
                 std::ptr::eq(self.program.belief(told.belief), belief)
@@ -117,7 +118,7 @@ impl Comparison<'_> {
                     matters: matters.clone(),
                     ctype: Some(ctype.clone()),
                 };
-                relation.value(element, &self.names.field(&belief_value(name, index)));
+                relation.value(element, &self.field(&belief_value(name, index)));
             }
             if let Some((_, time)) = timing(self.program, belief) {
                 let element = Element {
@@ -126,16 +127,12 @@ impl Comparison<'_> {
                     matters: format!("plain.{place}"),
                     ctype: Some(time.clone()),
                 };
-                relation.value(element, &self.names.field(&told_at(name)));
+                relation.value(element, &self.field(&told_at(name)));
             }
             if let Some(handler) = belief.perceived {
                 let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
                 let name = format!("perceived {name}");
-                relation.number(
-                    &name,
-                    &format!("perceived_{}", belief.name),
-                    &self.names.field(&flag),
-                );
+                relation.number(&name, &format!("perceived_{}", belief.name), &self.field(&flag));
             }
         }
     }
@@ -146,7 +143,7 @@ impl Comparison<'_> {
             ids.iter().map(|id| (self.event(slot, &handler_name(program, *id)), id.0 + 1)).collect()
         };
         let posted = numbers(Slot::Posted, &program.posted).into_iter();
-        let from = numbered(&self.names.field("posted"), posted);
+        let from = numbered(&self.field("posted"), posted);
         relation.number("the posted event", "posted", &from);
         for id in &program.posted {
             self.arguments(
@@ -161,7 +158,7 @@ impl Comparison<'_> {
             return;
         };
         let limited = numbers(Slot::Deadline, &program.limited).into_iter();
-        let from = numbered(&self.names.field("limited"), limited);
+        let from = numbered(&self.field("limited"), limited);
         relation.number("the goal with a deadline", "limited", &from);
         let element = Element {
             name: "the deadline".to_owned(),
@@ -169,7 +166,7 @@ impl Comparison<'_> {
             matters: "plain.limited != 0".to_owned(),
             ctype: Some(clock.clone()),
         };
-        relation.value(element, &self.names.field("deadline"));
+        relation.value(element, &self.field("deadline"));
         for id in &program.limited {
             self.arguments(
                 relation,
@@ -196,14 +193,14 @@ impl Comparison<'_> {
                 matters: format!("plain.{which} == {}", id.0 + 1),
                 ctype: Some(ctype.clone()),
             };
-            relation.value(element, &self.names.field(&slot_value(slot, &trigger, index)));
+            relation.value(element, &self.field(&slot_value(slot, &trigger, index)));
         }
     }
 
     /// Who the agent is, and what its peers say.
     fn said(&self, relation: &mut Relation) {
         let program = self.program;
-        let number = |name: &str| format!("(int){}", self.names.field(name));
+        let number = |name: &str| format!("(int){}", self.field(name));
         if !program.has_peers() {
             return;
         }
@@ -221,8 +218,8 @@ impl Comparison<'_> {
             let count = number(&ring_field(program, asked, "count"));
             relation.number(&format!("the number of +!{name}"), &place, &count);
             for (argument, ctype) in asked_types(program, asked).iter().enumerate() {
-                let first = self.names.field(&ring_field(program, asked, "first"));
-                let field = self.names.field(&slot_value(Slot::Asked, &name, argument));
+                let first = self.field(&ring_field(program, asked, "first"));
+                let field = self.field(&slot_value(Slot::Asked, &name, argument));
                 for slot in 0..asked.room {
                     let element = Element {
                         name: format!("arguments of +!{name}"),
@@ -238,7 +235,7 @@ impl Comparison<'_> {
         for (index, told) in program.told.iter().enumerate() {
             if told.added.is_some() || told.removed.is_some() {
                 let name = told_name(program, told);
-                let flag = self.names.field(&pending(Slot::Told, name));
+                let flag = self.field(&pending(Slot::Told, name));
                 relation.number(&format!("a change of {name}"), &format!("told_{index}"), &flag);
             }
         }
@@ -255,7 +252,7 @@ impl Comparison<'_> {
             relation.number(
                 &format!("pending {name}"),
                 &place,
-                &self.names.field(&pending(Slot::Preemptive, &name)),
+                &self.field(&pending(Slot::Preemptive, &name)),
             );
             for (index, ctype) in external.types.iter().enumerate() {
                 let element = Element {
@@ -264,19 +261,18 @@ impl Comparison<'_> {
                     matters: format!("plain.{place}"),
                     ctype: Some(ctype.clone()),
                 };
-                relation
-                    .value(element, &self.names.field(&slot_value(Slot::Preemptive, &name, index)));
+                relation.value(element, &self.field(&slot_value(Slot::Preemptive, &name, index)));
             }
         }
         let Some(ring) = inbox_ring(program) else {
             relation.read.push_str("    to->count = 0;\n");
             return;
         };
-        let count = format!("(int){}", self.names.field(&ring.field("count")));
+        let count = format!("(int){}", self.field(&ring.field("count")));
         relation.number("the number of events", "count", &count);
         for slot in 0..ring.length {
             let from = self.at(&ring, slot);
-            let event = format!("{}[{from}]", self.names.field(&ring.field("queue")));
+            let event = format!("{}[{from}]", self.field(&ring.field("queue")));
             let place = format!("queue[{slot}]");
             _ = writeln!(
                 relation.read,
@@ -298,7 +294,7 @@ impl Comparison<'_> {
                         matters: format!("{matters} && plain.{place} == {number}"),
                         ctype: Some(ctype.clone()),
                     };
-                    relation.value(element, &format!("{}[{from}]", self.names.field(&from_field)));
+                    relation.value(element, &format!("{}[{from}]", self.field(&from_field)));
                 };
             for (number, external) in
                 program.external.iter().enumerate().filter(|(_, external)| !external.preemptive)
@@ -333,7 +329,7 @@ impl Comparison<'_> {
 
     /// The slot of a ring's element.
     pub(super) fn at(&self, ring: &Ring, element: usize) -> String {
-        let first = self.names.field(&ring.field("first"));
+        let first = self.field(&ring.field("first"));
         format!("({first} + {element}U) % {}U", ring.length)
     }
 
@@ -373,11 +369,10 @@ impl Comparison<'_> {
             relation.read.push_str("    to->waiting = 0;\n");
             return;
         };
-        let count = format!("(int){}", self.names.field(&ring.field("count")));
+        let count = format!("(int){}", self.field(&ring.field("count")));
         relation.number("the number of deferred goals", "waiting", &count);
         for slot in 0..ring.length {
-            let event =
-                format!("{}[{}]", self.names.field(&ring.field("queue")), self.at(&ring, slot));
+            let event = format!("{}[{}]", self.field(&ring.field("queue")), self.at(&ring, slot));
             let place = format!("deferred[{slot}]");
             _ = writeln!(
                 relation.read,
@@ -397,11 +392,10 @@ impl Comparison<'_> {
                 let element = Element {
                     name: format!("arguments of {}", program.handler(*id).text()),
                     place: format!("deferred_{}_{index}", id.0),
-                    matters: self.names.field(&pending(Slot::Deferred, &name)),
+                    matters: self.field(&pending(Slot::Deferred, &name)),
                     ctype: Some(ctype.clone()),
                 };
-                relation
-                    .value(element, &self.names.field(&slot_value(Slot::Deferred, &name, index)));
+                relation.value(element, &self.field(&slot_value(Slot::Deferred, &name, index)));
             }
         }
     }

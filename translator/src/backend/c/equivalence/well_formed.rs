@@ -17,7 +17,7 @@ impl Comparison<'_> {
     pub(super) fn well_formed(&self, text: &mut String) {
         let program = self.program;
         text.push_str("static bool plain_well_formed(void)\n{\n    int goals = 0;\n    int events = 0;\n    (void)goals;\n    (void)events;\n");
-        let field = |name: &str| self.names.field(name);
+        let field = |name: &str| self.field(name);
         let unless = |text: &mut String, condition: &str| {
             _ = writeln!(text, "    if (!({condition})) return false;");
         };
@@ -104,13 +104,11 @@ impl Comparison<'_> {
     }
 
     fn ring(&self, text: &mut String, ring: &Ring, events: &[(String, usize)]) {
-        let (first, count) =
-            (self.names.field(&ring.field("first")), self.names.field(&ring.field("count")));
+        let (first, count) = (self.field(&ring.field("first")), self.field(&ring.field("count")));
         let length = ring.length;
         _ = writeln!(text, "    if (!({first} < {length}U && {count} <= {length}U)) return false;");
         for slot in 0..length {
-            let event =
-                format!("{}[{}]", self.names.field(&ring.field("queue")), self.at(ring, slot));
+            let event = format!("{}[{}]", self.field(&ring.field("queue")), self.at(ring, slot));
             let number = numbered(&event, events.iter().cloned());
             _ = writeln!(text, "    if ({count} > {slot}U && ({number}) == 0) return false;");
         }
