@@ -20,6 +20,7 @@ mod checksum;
 pub mod command_line;
 mod coverage;
 mod current;
+mod eva;
 mod headers;
 mod lsp;
 mod measure;
@@ -42,6 +43,7 @@ pub use certify::{
 pub use coverage::{
     Counts, Coverage, CoverageError, Independence, LineCount, OwnTest, Share, Test, cover,
 };
+pub use eva::{FRAMA_C, alarms, coarse_alarms};
 pub use headers::HeaderError;
 pub use measure::measure;
 pub use prove::{

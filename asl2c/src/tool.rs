@@ -70,6 +70,10 @@ pub(crate) fn output(
         }
     };
     command.args(arguments).current_dir(folder);
+    // Some read there which folder it is.
+    if let Ok(absolute) = folder.canonicalize() {
+        command.env("PWD", absolute);
+    }
     let runs_steps = program == "valgrind" || program.starts_with("./");
     let seconds = if runs_steps { MOST_SECONDS_OF_STEPS } else { MOST_SECONDS };
     let begun = Instant::now();
@@ -144,6 +148,7 @@ pub(crate) fn write(folder: &Path, name: &str, text: &str) -> Result<(), ToolErr
 fn package(program: &str) -> &'static str {
     match program {
         "cppcheck" => "cppcheck",
+        "frama-c" => "frama-c-base",
         "valgrind" => "valgrind",
         _ => "gcc",
     }

@@ -50,7 +50,7 @@ impl Verdict {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct PropertyEvidence {
-    /// Its name, or CBMC's description of the error.
+    /// Its name, or the description of the error by the tool that does not exclude it.
     pub name: String,
     /// The requirements that it implements.
     pub requirements: Vec<String>,

@@ -19,6 +19,7 @@ use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
 use crate::coverage::{Coverage, CoverageError, OwnTest, Test, cover};
+use crate::eva::alarms;
 use crate::headers::HeaderError;
 use crate::measure::measure;
 use crate::output::known_again;
@@ -273,6 +274,7 @@ fn proved(
     let folder = temporary_folder()?;
     let proof = prove(&obligations, cbmc, folder.path(), &Plan::ALL)?;
     let dead = dead_branches(&obligations, cbmc, folder.path())?;
+    let alarms = alarms(folder.path())?;
     let mut found = Vec::new();
     if !proof.holds() {
         let session = Session::new(configuration, text)?;
@@ -304,7 +306,13 @@ fn proved(
         formula: String::new(),
         verdict: verdict(Some(searched), &format!("run_time_{number}"), &mut files),
     });
-    let run_time_errors = run_time_errors.collect();
+    let alarms = alarms.into_iter().map(|alarm| PropertyEvidence {
+        name: format!("Frama-C does not exclude: {alarm}"),
+        requirements: Vec::new(),
+        formula: String::new(),
+        verdict: Verdict::Undecided,
+    });
+    let run_time_errors = run_time_errors.chain(alarms).collect();
     let c = obligations.files.into_iter().next().unwrap_or_default().text;
     Ok(Proved { properties, run_time_errors, invariant: proof.invariant, files, c, dead })
 }

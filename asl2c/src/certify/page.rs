@@ -104,7 +104,7 @@ fn summary(evidence: &Evidence) -> Markup {
             tr {
                 td { a href="#properties" { "There is no error at run time" } }
                 td.short { (marked(evidence.run_time_status())) }
-                td { "CBMC: no access outside an object, no overflow, no division by zero, no conversion that loses" }
+                td { "CBMC and Frama-C: no access outside an object, no overflow, no division by zero, no conversion that loses" }
             }
             tr {
                 td { a href="#rules" { "The C follows MISRA C:2012" } }

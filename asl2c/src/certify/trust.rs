@@ -1,6 +1,7 @@
 //! The trusted base: the programs that were used, and what else has to be believed.
 
 use super::evidence::Tool;
+use crate::eva::FRAMA_C;
 use crate::prove::Cbmc;
 use crate::tool::{ToolError, version};
 
@@ -26,6 +27,12 @@ pub(super) fn tools(cbmc: &Cbmc) -> Result<Vec<Tool>, ToolError> {
             "CBMC",
             cbmc.version().to_owned(),
             "All proofs: its reading of C, its bit-precise arithmetic and its solver.",
+        ),
+        tool(
+            "Frama-C",
+            version(FRAMA_C)?,
+            "Nothing alone: its EVA looks for errors at run time beside CBMC, in another way. What one of the two cannot \
+             exclude is open.",
         ),
         tool(
             "gcc",

@@ -21,7 +21,7 @@ fn certify(agent: &Path, folder: &Path) -> Option<Output> {
     let output = command.output().unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
     if complaint.contains("nothing is certified") {
-        skip("cppcheck, gcc or valgrind");
+        skip("cppcheck, Frama-C, gcc or valgrind");
         return None;
     }
     Some(output)

@@ -79,7 +79,12 @@ fn follow(page_path: &str) {
         skip("cbmc");
         return;
     };
-    for (tool, version) in [("cppcheck", "--version"), ("valgrind", "--version"), ("spin", "-V")] {
+    for (tool, version) in [
+        ("cppcheck", "--version"),
+        ("frama-c", "-version"),
+        ("valgrind", "--version"),
+        ("spin", "-V"),
+    ] {
         if Command::new(tool).arg(version).output().is_err() {
             skip(tool);
             return;

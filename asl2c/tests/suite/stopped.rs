@@ -62,7 +62,7 @@ fn a_stop_leaves_no_cbmc_behind() {
         for signal in ["INT", "TERM"] {
             let folder = tempfile::tempdir().unwrap();
             let Some(output) = stopped(task, signal, folder.path()) else {
-                skip("cppcheck, gcc or valgrind");
+                skip("cppcheck, Frama-C, gcc or valgrind");
                 continue;
             };
             let text = shown(&output);

@@ -6,19 +6,17 @@ mod model;
 mod mutants;
 mod proof;
 mod report;
-mod run_time;
 mod tools;
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-use asl2c::{Cbmc, Checked, Checks, Plan, Proof};
+use asl2c::{Cbmc, Checked, Checks, Plan, Proof, alarms, coarse_alarms};
 use translator::TranslateError;
 
 use self::mutants::{AGENT, C, CONFIGURATION, MUTANTS, Mutant, RUN_TIME};
 use self::proof::{broken, prove, violates, write_program};
 use self::report::Report;
-use self::run_time::{alarms, coarse_alarms};
 use self::tools::{Missing, Tools};
 use crate::parallel;
 
@@ -48,6 +46,9 @@ pub(crate) enum VerifyError {
     /// Checking the model failed.
     #[error(transparent)]
     Model(#[from] asl2c::VerifyError),
+    /// Frama-C came to no result.
+    #[error(transparent)]
+    Alarms(#[from] asl2c::ToolError),
     /// Some figures could not be measured: one reason per line.
     #[error("not everything is measured:\n{0}")]
     Unmeasured(String),

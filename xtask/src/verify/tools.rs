@@ -6,9 +6,8 @@ use std::fmt;
 use std::path::Path;
 use std::process::Command;
 
-use asl2c::{Cbmc, SPIN};
+use asl2c::{Cbmc, FRAMA_C, SPIN};
 
-use super::run_time::FRAMA_C;
 use super::{VerifyError, folder, in_file};
 
 /// The tools found.
