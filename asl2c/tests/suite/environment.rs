@@ -47,6 +47,12 @@ const WRONG: &[(Edit, &str)] = &[
     (("a value is that of long ago", &[
         (UPDATE, "    if (agent.belief_air_held && (agent.belief_air_1 == 77))\n    {\n        runMotor();\n    }\n    updateBeliefs();\n"),
     ]), "another call, or none"),
+    (("a value is another one after the beliefs are set", &[
+        (UPDATE, "    const int32_t was = agent.belief_air_1;\n    updateBeliefs();\n    if (was != agent.belief_air_1)\n    {\n        runMotor();\n    }\n"),
+    ]), "another call, or none"),
+    (("a belief is held after the beliefs are set", &[
+        (UPDATE, "    const bool was = agent.belief_air_held;\n    updateBeliefs();\n    if (agent.belief_air_held && (!was))\n    {\n        runMotor();\n    }\n"),
+    ]), "another call, or none"),
     (("what was pending stays", &[
         ("void clear(void)\n{\n    forget_events();\n", "void clear(void)\n{\n    if (agent.unhandled != 3U)\n    {\n        forget_events();\n    }\n"),
     ]), "another state: the posted event"),
