@@ -142,8 +142,8 @@ pub(super) enum Task {
     /// Gather the evidence for an agent: proofs, rules, bounds and tests of its C, in a folder with a page
     ///
     /// The C is compared with the agent's text (`validate`), the properties and the absence of run-time errors are
-    /// proved (`prove`, the latter by Frama-C too), the rules of MISRA C:2012 are checked with cppcheck, stack and time are measured
-    /// (`--report`), and tests that are made from the text are executed on the C, with the coverage that they reach.
+    /// proved (`prove`, the latter by Frama-C too), the rules of MISRA C:2012 are checked with cppcheck, stack and time
+    /// are measured (`--report`), and tests that are made from the text are executed on the C, with the coverage that they reach.
     /// `index.html` has all of it for a reviewer, `evidence.json` for programs; with the same tools the files are the
     /// same each time. The exit status is 0 if everything is shown, 1 if something is refuted, and 3 if something
     /// could not be decided or a tool is missing.
