@@ -191,3 +191,26 @@ fn what_nothing_depends_on_may_outlive_a_call() {
     let result = judged(&cbmc, true, &("nothing is edited", &[]));
     assert!(result.is_proved(), "{result:?}");
 }
+
+/// Calls of a step are counted in few bits, as long as they suffice.
+#[test]
+fn steps_with_many_calls_are_compared() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+        includes { #include <stdbool.h>
+        #include <stdint.h> };
+        basics { void act(uint32_t); };
+        types { tick(void); };
+        triggerables { +!tick; };";
+    let calls: Vec<String> = (1..=300).map(|call| format!("act({call})")).collect();
+    let agent = format!("+!tick <- {}.\n", calls.join("; "));
+    let edited = |edit| judged_of(&cbmc, (configuration, &agent), edit);
+    let result = edited(&("nothing is edited", &[]));
+    assert!(result.is_proved(), "{result:?}");
+    let result = edited(&("one call of many", &[("act(290U)", "act(291U)")]));
+    assert!(result.open.iter().any(|open| open.said == "another value for act"), "{result:?}");
+}
