@@ -185,6 +185,10 @@ enum Command {
         /// agent, no report
         #[arg(long)]
         only_proofs: bool,
+        /// Read what tests exercise from this folder, once `target/coverage.lock` is free: they are built and run by
+        /// somebody else, with the folder in `AGENT_COVERAGE`
+        #[arg(long, value_name = "DIR", conflicts_with = "only_proofs")]
+        counted: Option<PathBuf>,
     },
     /// Compile the gallery's agents and the shipped one for a Cortex-M4, measure that code, and compare its trace under
     /// QEMU with this machine's; fails if one differs or exceeds its bounds
@@ -248,7 +252,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
             mutants::ablation::run(flights, only.as_deref())?
         }
         Command::Soak(arguments) => soak::run(&arguments)?,
-        Command::Verify { only_proofs } => verify::run(only_proofs)?,
+        Command::Verify { only_proofs, counted } => verify::run(only_proofs, counted.as_deref())?,
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
     })

@@ -127,9 +127,12 @@ impl Caught {
     }
 }
 
-/// Verifies the shipped agent and, unless `only_proofs`, its mutants and the paper's agent. Returns the
-/// report, and writes it to a file if everything was proved.
-pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
+/// Verifies the shipped agent and, unless `only_proofs`, its mutants and the paper's agent. Tests are run to measure the
+/// coverage, or have `counted` it in a folder. Returns the report, and writes it to a file if everything was proved.
+pub(crate) fn run(
+    only_proofs: bool,
+    counted: Option<&Path>,
+) -> Result<(String, bool), VerifyError> {
     let Tools { cbmc, versions } = Tools::find(only_proofs)?;
     let verifier = Verifier { cbmc };
     let generated = folder("verify");
@@ -144,7 +147,7 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
     let paper = verifier.verify(&PAPER, &generated.join("paper"), &[])?;
     let mutants = verifier.mutants(&autopilot.c.invariant)?;
     let cost = model::cost(&AUTOPILOT)?;
-    let coverage = coverage::measure()?;
+    let coverage = counted.map_or_else(coverage::measure, coverage::counted)?;
     let good = autopilot.hold() && mutants.iter().all(Caught::is_caught);
     let report = Report { versions, autopilot, paper, mutants, cost, coverage };
     let mut lines = report.lines();
