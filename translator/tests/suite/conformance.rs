@@ -194,7 +194,7 @@ const RULES: [&str; 158] = [
 /// The environment of all agents of the suite. Actions and functions print their call.
 pub(crate) const BASICS: &str = "void a(void); void act(int); void pair(int, int); void real(double); \
     void say(const char *); bool yes(int); bool no(int); bool flip(bool); int twice(int); \
-    int count(void); int now(void);";
+    int count(void); int now(void); int watch(void);";
 pub(crate) const TYPES: &str = "g(void); h(void); k(void); land(void); c(void); gi(int); h2(int); b(int); \
     gd(double); d(double); go2(int, int); p(int, int); s(const char *); on(bool);";
 
@@ -223,6 +223,7 @@ bool flip(bool x) { printf("flip(%d)\n", (int)x); return !x; }
 int twice(int x) { printf("twice(%d)\n", x); return 2 * x; }
 int count(void) { return 3; }
 int now(void) { return clock_ms; }
+int watch(void) { printf("watch\n"); return clock_ms; }
 "#;
 
 /// One case of a file.
@@ -522,6 +523,7 @@ impl Environment for World {
             ("second", _) => Some(Value::Integer(1)),
             ("twice", [Value::Integer(value)]) => Some(Value::Integer(2 * value)),
             ("count", _) => Some(Value::Integer(3)),
+            ("watch", _) => Some(Value::Integer(self.clock_ms)),
             _ => unreachable!("the suite has no function `{name}`"),
         }
     }

@@ -1,9 +1,12 @@
 //! Translates small agents, compiles their C with all warnings as errors, and runs it.
 
+use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
+use proptest::strategy::Strategy;
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use translator::{TranslateError, Translation, parse_configuration, translate};
 
 /// The compilers' flags that generated C must pass.
@@ -24,6 +27,42 @@ pub(crate) const STRICT: [&str; 11] = [
 /// A number from an environment variable, or the default.
 pub(crate) fn from_environment(variable: &str, usual: u32) -> u32 {
     std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+/// Checks random cases, on all processors, and returns what was found in each. A failure is shrunk.
+///
+/// # Panics
+/// If a check fails.
+pub(crate) fn in_random_cases<S: Strategy, T: Send + 'static>(
+    cases: u32,
+    seed: u32,
+    strategy: impl Fn() -> S + Copy + Send + 'static,
+    check: impl Fn(S::Value) -> Result<T, TestCaseError> + Copy + Send + 'static,
+) -> Vec<T> {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = u32::try_from(processors).unwrap();
+    let work = move |worker: u32| {
+        let mut seed_bytes = [0; 32];
+        seed_bytes[..4].copy_from_slice(&seed.to_le_bytes());
+        seed_bytes[4..8].copy_from_slice(&worker.to_le_bytes());
+        let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &seed_bytes);
+        let config = Config {
+            cases: cases.div_ceil(workers),
+            max_shrink_iters: 400,
+            failure_persistence: None,
+            ..Config::default()
+        };
+        let found = RefCell::new(Vec::new());
+        let result = TestRunner::new_with_rng(config, rng).run(&strategy(), |case| {
+            found.borrow_mut().push(check(case)?);
+            Ok(())
+        });
+        result.unwrap_or_else(|error| panic!("{error}"));
+        found.into_inner()
+    };
+    let threads: Vec<_> =
+        (0..workers).map(|worker| std::thread::spawn(move || work(worker))).collect();
+    threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
 }
 
 /// Reports that a test was skipped because a tool is missing. In CI that is a failure, so that a skipped test

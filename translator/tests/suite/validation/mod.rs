@@ -9,10 +9,10 @@ mod compiled;
 mod generate;
 mod interpreted;
 
-use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+use proptest::test_runner::{Config, TestCaseError, TestRunner};
 
 use self::generate::Choices;
-use crate::harness::from_environment;
+use crate::harness::{from_environment, in_random_cases};
 
 /// Each agent is run through this many sequences of events.
 const SEQUENCES: usize = 10;
@@ -49,38 +49,8 @@ fn validate(choices: &[u8]) -> Result<Validated, TestCaseError> {
 fn validation_of_random_agents() {
     let cases = from_environment("ASL2C_VALIDATION", USUAL_AGENTS);
     let seed = from_environment("ASL2C_VALIDATION_SEED", 1);
-    let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let workers = u32::try_from(processors).unwrap();
-    let threads: Vec<_> = (0..workers)
-        .map(|worker| {
-            std::thread::spawn(move || {
-                let mut seed_bytes = [0; 32];
-                seed_bytes[..4].copy_from_slice(&seed.to_le_bytes());
-                seed_bytes[4..8].copy_from_slice(&worker.to_le_bytes());
-                let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &seed_bytes);
-                let config = Config {
-                    cases: cases.div_ceil(workers),
-                    max_shrink_iters: 400,
-                    failure_persistence: None,
-                    ..Config::default()
-                };
-                let translated = std::cell::Cell::new(Validated::default());
-                let choices = proptest::collection::vec(proptest::num::u8::ANY, 50..700);
-                let result = TestRunner::new_with_rng(config, rng).run(&choices, |choices| {
-                    let (before, one) = (translated.get(), validate(&choices)?);
-                    translated.set(Validated {
-                        agents: before.agents + one.agents,
-                        hostile: before.hostile + one.hostile,
-                    });
-                    Ok(())
-                });
-                result.unwrap_or_else(|error| panic!("{error}"));
-                translated.get()
-            })
-        })
-        .collect();
-    let validated: Vec<Validated> =
-        threads.into_iter().map(|thread| thread.join().unwrap()).collect();
+    let choices = || proptest::collection::vec(proptest::num::u8::ANY, 50..700);
+    let validated = in_random_cases(cases, seed, choices, |choices| validate(&choices));
     let translated: u32 = validated.iter().map(|one| one.agents).sum();
     let hostile: u32 = validated.iter().map(|one| one.hostile).sum();
     println!(

@@ -1,76 +1,46 @@
-//! Random agents that talk, in random company, interpreted and compiled.
-//!
-//! Both must leave the same trace: all actions and messages that are sent with their arguments, all answers to what
-//! arrives, and all counters. An agent with its peers, and what it hears, are derived from lists of choices, which are
-//! shrunk on a failure. `ASL2C_MESSAGES=20000 cargo test -p translator messages` runs more agents than usual,
-//! `ASL2C_MESSAGES_SEED` other ones; `ASL2C_CC=clang` selects another compiler.
+//! Random agents that talk, and what happens to them.
 
 use std::fmt::Write as _;
-use std::process::Command as Process;
 
-use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
-use translator::interpreter::{Environment, Interpreter, Value};
-use translator::syntax::ast::{Operator, Performative, TriggerKind};
-use translator::types::CType;
-use translator::{ParsedConfiguration, parse_configuration, translate};
+use translator::syntax::ast::Performative;
 
-use crate::harness::{STRICT, from_environment};
-
-const USUAL_AGENTS: u32 = 100;
-/// Each agent is run through at most this many sequences of commands.
-const SEQUENCES: usize = 16;
 /// Most commands of a sequence.
 const COMMANDS: usize = 60;
 /// Contexts are refused that have more ways to choose who told their beliefs.
 const MOST_WAYS: usize = 64;
-const PEERS: [&str; 4] = ["ann", "bob", "cid", "dee"];
+pub(super) const PEERS: [&str; 4] = ["ann", "bob", "cid", "dee"];
 /// What the clock may show: the time between some of them is none.
 const TIMES: [i32; 8] = [0, 1, 2, 3, 4, 5, i32::MAX, i32::MIN];
 /// The number of nobody.
-const STRANGER: usize = 200;
+pub(super) const STRANGER: usize = 200;
 
 /// What the environment offers; all functions print their call.
 const BASICS: &str = "void act(int); void who(peer); void both(int, peer); bool even(int); bool odd(peer); \
     int next(int); peer other(peer); int now(void);";
-/// The same in C.
-const PRELUDE: &str = r#"
-#include <stdio.h>
-void updateBeliefs(void) { }
-void act(int x) { printf("act %d\n", x); }
-void who(peer_t x) { printf("who %d\n", (int)x); }
-void both(int x, peer_t y) { printf("both %d %d\n", x, (int)y); }
-bool even(int x) { printf("even %d\n", x); return (x % 2) == 0; }
-bool odd(peer_t x) { printf("odd %d\n", (int)x); return (x % 2U) == 1U; }
-int next(int x) { printf("next %d\n", x); return (x == 3) ? 0 : ((x < 3) ? (x + 1) : 3); }
-peer_t other(peer_t x) { printf("other %d\n", (int)x); return (x == 0U) ? 1U : 0U; }
-static int clock_ms = 0;
-int now(void) { printf("now\n"); return clock_ms; }
-static void answer(bool yes) { printf("%s\n", yes ? "yes" : "no"); }
-"#;
 
 /// A list of choices; when it is exhausted, the simplest choice is taken.
-struct Choices<'a>(&'a [u8]);
+pub(super) struct Choices<'a>(pub(super) &'a [u8]);
 
 impl Choices<'_> {
     /// One of `count` alternatives.
-    fn pick(&mut self, count: usize) -> usize {
+    pub(super) fn pick(&mut self, count: usize) -> usize {
         let Some((first, rest)) = self.0.split_first() else { return 0 };
         self.0 = rest;
         usize::from(*first) % count
     }
 
     /// True in `percent` of all cases.
-    fn chance(&mut self, percent: usize) -> bool {
+    pub(super) fn chance(&mut self, percent: usize) -> bool {
         self.pick(100) >= 100 - percent
     }
 
-    fn of<T: Clone>(&mut self, alternatives: &[T]) -> T {
+    pub(super) fn of<T: Clone>(&mut self, alternatives: &[T]) -> T {
         alternatives[self.pick(alternatives.len())].clone()
     }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Type {
+pub(super) enum Type {
     Int,
     Peer,
 }
@@ -86,10 +56,10 @@ impl Type {
 
 /// A belief or a goal.
 #[derive(Debug, Clone)]
-struct Predicate {
-    name: &'static str,
-    is_goal: bool,
-    types: Vec<Type>,
+pub(super) struct Predicate {
+    pub(super) name: &'static str,
+    pub(super) is_goal: bool,
+    pub(super) types: Vec<Type>,
     /// The peers that tell it or ask for it; none if it is no message.
     senders: Vec<usize>,
     /// The environment sets the belief.
@@ -106,22 +76,22 @@ impl Predicate {
 }
 
 /// A random agent with its configuration. Plans achieve and change only what is behind their own predicate.
-struct Talker {
-    peers: usize,
-    predicates: Vec<Predicate>,
-    configuration: String,
-    text: String,
+pub(super) struct Talker {
+    pub(super) peers: usize,
+    pub(super) predicates: Vec<Predicate>,
+    pub(super) configuration: String,
+    pub(super) text: String,
 }
 
 /// What happens to an agent.
 #[derive(Debug, Clone)]
-enum Command {
+pub(super) enum Command {
     Step,
     /// The sender, what it does, the belief or goal, and arguments.
-    Receive(usize, Performative, &'static str, Vec<usize>),
+    Receive(usize, Performative, &'static str, Vec<i64>),
     /// `achieve`, `add` or `del`, the belief or goal, and arguments.
-    Raise(&'static str, &'static str, Vec<usize>),
-    Set(&'static str, Vec<usize>),
+    Raise(&'static str, &'static str, Vec<i64>),
+    Set(&'static str, Vec<i64>),
     /// The clock shows this from now on.
     Time(i32),
     /// Begins again as this peer.
@@ -130,7 +100,7 @@ enum Command {
 }
 
 impl Talker {
-    fn new(choices: &mut Choices<'_>) -> Self {
+    pub(super) fn new(choices: &mut Choices<'_>) -> Self {
         let peers = 2 + choices.pick(3);
         let mut predicates = Vec::new();
         let (told, asked) = (1 + choices.pick(3), 1 + choices.pick(2));
@@ -223,7 +193,8 @@ impl Talker {
         )
     }
 
-    fn text(&self, choices: &mut Choices<'_>) -> String {
+    /// An agent for these predicates.
+    pub(super) fn text(&self, choices: &mut Choices<'_>) -> String {
         let mut text = String::from("// An agent that talks.\n");
         for Predicate { name, is_goal, types, .. } in &self.predicates {
             // Peers are no constants.
@@ -248,46 +219,59 @@ impl Talker {
         text
     }
 
-    fn sequence(&self, choices: &mut Choices<'_>) -> Vec<Command> {
+    pub(super) fn sequence(&self, choices: &mut Choices<'_>) -> Vec<Command> {
         let mut commands = vec![Command::Init(choices.pick(self.peers))];
         while !choices.0.is_empty() && commands.len() < COMMANDS {
-            let predicate = choices.of(&self.predicates);
-            let Predicate { name, is_goal, types, .. } = &predicate;
-            let mut arguments: Vec<usize> = types
-                .iter()
-                .map(|ctype| match ctype {
-                    Type::Int => choices.pick(4),
-                    Type::Peer if choices.chance(5) => STRANGER,
-                    Type::Peer => choices.pick(self.peers),
-                })
-                .collect();
             commands.push(match choices.pick(20) {
-                6..15 if !predicate.senders.is_empty() => {
+                6..15 => {
                     let from = if choices.chance(4) { STRANGER } else { choices.pick(self.peers) };
-                    let performative = match (is_goal, choices.chance(25)) {
-                        (false, false) => Performative::Tell,
-                        (false, true) => Performative::Untell,
-                        (true, false) => Performative::Achieve,
-                        (true, true) => Performative::Unachieve,
-                    };
-                    if !performative.has_arguments() {
-                        arguments.clear();
-                    }
-                    Command::Receive(from, performative, name, arguments)
+                    self.said(from, choices)
                 }
-                15 | 16 if predicate.is_settable => Command::Set(name, arguments),
-                17 | 18 if predicate.is_raised => match (is_goal, choices.chance(40)) {
-                    (true, _) => Command::Raise("achieve", name, arguments),
-                    (false, false) => Command::Raise("add", name, arguments),
-                    (false, true) => Command::Raise("del", name, Vec::new()),
-                },
-                5 => Command::Time(choices.of(&TIMES)),
+                5 | 15..19 => self.surroundings(choices),
                 19 if choices.chance(30) => Command::Init(choices.pick(self.peers)),
                 19 if choices.chance(40) => Command::Clear,
                 _ => Command::Step,
             });
         }
         commands
+    }
+
+    fn arguments(&self, types: &[Type], choices: &mut Choices<'_>) -> Vec<i64> {
+        let argument = |ctype: &Type| match ctype {
+            Type::Int => choices.pick(4),
+            Type::Peer if choices.chance(5) => STRANGER,
+            Type::Peer => choices.pick(self.peers),
+        };
+        types.iter().map(argument).map(|number| i64::try_from(number).unwrap()).collect()
+    }
+
+    /// Something that somebody says, whether he may or not.
+    pub(super) fn said(&self, from: usize, choices: &mut Choices<'_>) -> Command {
+        let messages = self.predicates.iter().filter(|message| !message.senders.is_empty());
+        let message = choices.of(&messages.collect::<Vec<_>>());
+        let performative = match (message.is_goal, choices.chance(25)) {
+            (false, false) => Performative::Tell,
+            (false, true) => Performative::Untell,
+            (true, false) => Performative::Achieve,
+            (true, true) => Performative::Unachieve,
+        };
+        let types = if performative.has_arguments() { &*message.types } else { &[] };
+        Command::Receive(from, performative, message.name, self.arguments(types, choices))
+    }
+
+    /// What the environment raises or sets, and its clock.
+    pub(super) fn surroundings(&self, choices: &mut Choices<'_>) -> Command {
+        let Predicate { name, is_goal, types, is_settable, is_raised, .. } =
+            choices.of(&self.predicates);
+        match choices.pick(5) {
+            1 | 2 if is_settable => Command::Set(name, self.arguments(&types, choices)),
+            3 | 4 if is_raised => match (is_goal, choices.chance(40)) {
+                (true, _) => Command::Raise("achieve", name, self.arguments(&types, choices)),
+                (false, false) => Command::Raise("add", name, self.arguments(&types, choices)),
+                (false, true) => Command::Raise("del", name, Vec::new()),
+            },
+            _ => Command::Time(choices.of(&TIMES)),
+        }
     }
 }
 
@@ -556,215 +540,4 @@ impl Plan<'_, '_, '_> {
         }
         format!("{verb}, {}", self.called(message))
     }
-}
-
-/// The trace of the interpreter.
-fn interpreted(mut agent: Interpreter, sequences: &[Vec<Command>]) -> String {
-    let mut trace = Trace::default();
-    let values = |arguments: &[usize]| -> Vec<Value> {
-        let numbers = arguments.iter().map(|argument| i128::try_from(*argument).unwrap());
-        numbers.map(Value::Integer).collect()
-    };
-    let answer = |accepted: bool| if accepted { "yes\n" } else { "no\n" };
-    for command in sequences.iter().flatten() {
-        match command {
-            Command::Step => {
-                agent.next_step(&mut trace);
-                let counts = (agent.unhandled_events(), agent.refused_events());
-                let aborted = agent.aborted_events();
-                _ = writeln!(trace.0, "step {} {} {aborted}", counts.0, counts.1);
-            }
-            Command::Receive(from, performative, name, arguments) => {
-                let accepted =
-                    agent.receive(*from, *performative, name, values(arguments), &mut trace);
-                trace.0.push_str(answer(accepted));
-            }
-            Command::Raise(verb, name, arguments) => {
-                let (operator, kind) = match *verb {
-                    "achieve" => (Operator::Add, TriggerKind::Achieve),
-                    "add" => (Operator::Add, TriggerKind::Belief),
-                    _ => (Operator::Delete, TriggerKind::Belief),
-                };
-                let accepted = agent.raise(operator, kind, name, values(arguments)).is_ok();
-                trace.0.push_str(answer(accepted));
-            }
-            Command::Time(time) => trace.1 = *time,
-            Command::Set(name, arguments) => agent.set((*name).to_owned(), values(arguments)),
-            Command::Init(me) => {
-                agent.be(*me);
-                trace.0.push_str("init\n");
-            }
-            Command::Clear => agent.clear(),
-        }
-    }
-    trace.0
-}
-
-#[derive(Default)]
-struct Trace(String, i32);
-
-impl Environment for Trace {
-    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
-        Vec::new()
-    }
-
-    fn call(&mut self, name: &str, arguments: &[Value], _: &CType) -> Option<Value> {
-        let integers = arguments.iter().map(|argument| match argument {
-            Value::Integer(value) => *value,
-            _ => unreachable!("there are only numbers and peers"),
-        });
-        let integers: Vec<i128> = integers.collect();
-        self.0.push_str(name);
-        for value in &integers {
-            _ = write!(self.0, " {value}");
-        }
-        self.0.push('\n');
-        match (name, integers.as_slice()) {
-            ("even" | "odd", [value]) => Some(Value::Bool((value % 2 != 0) == (name == "odd"))),
-            ("now", _) => Some(Value::Integer(self.1.into())),
-            ("next", [value]) => {
-                Some(Value::Integer(if *value == 3 { 0 } else { 3.min(value + 1) }))
-            }
-            ("other", [value]) => Some(Value::Integer(i128::from(*value == 0))),
-            _ => None,
-        }
-    }
-}
-
-/// The trace of the compiled C, or why it cannot be compiled.
-fn compiled(
-    talker: &Talker,
-    parsed: &ParsedConfiguration,
-    sequences: &[Vec<Command>],
-) -> Result<String, String> {
-    let translation = translate(parsed, &talker.text).map_err(|error| error.to_string())?;
-    let folder = tempfile::tempdir().unwrap();
-    for file in &translation.files {
-        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
-    }
-    let preempts = translation.files.iter().any(|file| file.text.contains("aborted_events"));
-    let script = script(sequences, if preempts { "aborted_events()" } else { "0U" });
-    // One compilation unit, because compilation dominates the time.
-    let main = format!("#include \"agent.c\"\n{PRELUDE}{}{script}", sending(parsed));
-    std::fs::write(folder.path().join("main.c"), main).unwrap();
-    let compiler = std::env::var("ASL2C_CC").unwrap_or_else(|_| "cc".to_owned());
-    let mut compile = Process::new(&compiler);
-    if compiler == "cc" {
-        compile.args(STRICT).arg("-pipe");
-    }
-    let compile = compile.current_dir(folder.path()).args(["-o", "agent", "main.c"]);
-    let result = compile.output().unwrap();
-    if !result.status.success() {
-        let message = String::from_utf8_lossy(&result.stderr);
-        return Err(format!("{message}\n{}", translation.files[0].text));
-    }
-    let result = Process::new(folder.path().join("agent")).output().unwrap();
-    let trace = String::from_utf8_lossy(&result.stdout).into_owned();
-    if result.status.success() { Ok(trace) } else { Err(format!("{trace}{:?}", result.status)) }
-}
-
-/// The actions that send messages.
-fn sending(parsed: &ParsedConfiguration) -> String {
-    let mut text = String::new();
-    for action in parsed.declarations().sending() {
-        let (mut parameters, mut form, mut values) = (Vec::new(), String::new(), String::new());
-        for (index, ctype) in action.parameters.iter().enumerate() {
-            parameters.push(format!("{} x{index}", ctype.name));
-            form.push_str(" %d");
-            _ = write!(values, ", (int)x{index}");
-        }
-        let (name, parameters) = (&action.name.text, parameters.join(", "));
-        _ = writeln!(text, "void {name}({parameters}) {{ printf(\"{name}{form}\\n\"{values}); }}");
-    }
-    text
-}
-
-fn script(sequences: &[Vec<Command>], aborted: &str) -> String {
-    let mut text = format!(
-        "static void step(void) {{ next_step(); printf(\"step %u %u %u\\n\", (unsigned)unhandled_events(), \
-         (unsigned)refused_events(), (unsigned){aborted}); }}\nint main(void)\n{{\n"
-    );
-    for command in sequences.iter().flatten() {
-        let list = |arguments: &[usize]| {
-            arguments.iter().map(|argument| format!("{argument}")).collect::<Vec<_>>().join(", ")
-        };
-        match command {
-            Command::Step => text.push_str("step();\n"),
-            Command::Receive(from, performative, name, arguments) => {
-                let all = list(&[&[*from], arguments.as_slice()].concat());
-                _ = writeln!(text, "answer(receive_{}_{name}({all}));", performative.name());
-            }
-            Command::Raise(verb, name, arguments) => {
-                _ = writeln!(text, "answer({verb}_{name}({}));", list(arguments));
-            }
-            Command::Set(name, arguments) => _ = writeln!(text, "set_{name}({});", list(arguments)),
-            Command::Time(time) => _ = writeln!(text, "clock_ms = (int)({time}LL);"),
-            Command::Init(me) => _ = writeln!(text, "init({me}); puts(\"init\");"),
-            Command::Clear => text.push_str("clear();\n"),
-        }
-    }
-    text.push_str("return 0;\n}\n");
-    text
-}
-
-/// Runs one agent both ways; false if it is refused.
-fn agrees(agent: &[u8], sequences: &[Vec<u8>]) -> Result<bool, TestCaseError> {
-    let talker = Talker::new(&mut Choices(agent));
-    let sequences: Vec<Vec<Command>> =
-        sequences.iter().map(|choices| talker.sequence(&mut Choices(choices))).collect();
-    let parsed = parse_configuration("agent.conf", &talker.configuration)
-        .unwrap_or_else(|error| panic!("{}{error}", talker.configuration));
-    let Ok(interpreter) = Interpreter::new(&parsed, &talker.text) else { return Ok(false) };
-    let expected = interpreted(interpreter, &sequences);
-    let found = compiled(&talker, &parsed, &sequences);
-    if found.as_ref() == Ok(&expected) {
-        return Ok(true);
-    }
-    let found = found.unwrap_or_else(|error| error);
-    let first = expected.lines().zip(found.lines()).position(|(one, other)| one != other);
-    Err(TestCaseError::fail(format!(
-        "{}\n{}\n{sequences:?}\nline {first:?}\ninterpreted:\n{expected}\ncompiled:\n{found}",
-        talker.configuration, talker.text
-    )))
-}
-
-#[test]
-fn messages_of_random_agents() {
-    let agents = from_environment("ASL2C_MESSAGES", USUAL_AGENTS);
-    let seed = from_environment("ASL2C_MESSAGES_SEED", 1);
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let workers = u32::try_from(workers).unwrap();
-    let threads: Vec<_> = (0..workers)
-        .map(|worker| {
-            std::thread::spawn(move || {
-                let mut seed_bytes = [0; 32];
-                seed_bytes[..4].copy_from_slice(&seed.to_le_bytes());
-                seed_bytes[4..8].copy_from_slice(&worker.to_le_bytes());
-                let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &seed_bytes);
-                let cases = agents.div_ceil(workers);
-                let config = Config {
-                    cases,
-                    max_shrink_iters: 400,
-                    failure_persistence: None,
-                    ..Config::default()
-                };
-                let translated = std::cell::Cell::new(0);
-                let bytes = |length| proptest::collection::vec(proptest::num::u8::ANY, length);
-                let choices =
-                    (bytes(100..600), proptest::collection::vec(bytes(80..300), 1..=SEQUENCES));
-                let result =
-                    TestRunner::new_with_rng(config, rng).run(&choices, |(agent, sequences)| {
-                        translated.set(translated.get() + u32::from(agrees(&agent, &sequences)?));
-                        Ok(())
-                    });
-                result.unwrap_or_else(|error| panic!("{error}"));
-                translated.get()
-            })
-        })
-        .collect();
-    let translated: u32 = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
-    println!(
-        "{translated} of {agents} agents translated, up to {SEQUENCES} sequences each: all agree"
-    );
-    assert!(translated * 2 > agents, "most agents should translate, {translated} of {agents} did");
 }
