@@ -118,3 +118,28 @@ fn what_is_taken_back_is_over() {
     let text = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{text}");
 }
+
+/// A goal that is refused is no event: nothing is due for it.
+#[test]
+fn what_is_refused_is_not_due() {
+    let folder = tempfile::tempdir().unwrap();
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+        basics { void on(void); void off(void); };
+        peers { leader, wingman }; messages { achieve go from wingman, ROOM; };
+        types { first(void); }; triggerables { +!first; }; preemptive { +!first; };
+        properties { answered: within(1, +!go[source(wingman)], on); };\n";
+    std::fs::write(folder.path().join("a.asl"), "+!first <- on.\n+!go <- off.\n").unwrap();
+    // The answer to the goal that waits comes with another event.
+    let script =
+        "receive_achieve_go(wingman); achieve_first(); step\nreceive_achieve_go(wingman); step\n";
+    std::fs::write(folder.path().join("a.script"), script).unwrap();
+    for (room, is_broken) in [("1", false), ("2", true)] {
+        let path = folder.path().join("a.conf");
+        std::fs::write(path, configuration.replace("ROOM", room)).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        let command = command.args(["run", "a.conf", "--script", "a.script"]);
+        let output = command.current_dir(folder.path()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(text.contains("breaks `answered`"), is_broken, "{room}: {text}");
+    }
+}

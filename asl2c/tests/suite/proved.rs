@@ -69,7 +69,7 @@ const TALK: &str = "peers { ann, bob };\n\
 fn condition(random: &mut Random, talks: bool) -> String {
     let value = value(random);
     let peer = random.of(&PEERS);
-    match random.below(if talks { 17 } else { 11 }) {
+    match random.below(if talks { 19 } else { 11 }) {
         11 => format!("seen[source({})]", random.of(&["self", peer, "_"])),
         12 => format!("not seen[source({})]", random.of(&["self", peer, "_"])),
         13 => format!(
@@ -80,6 +80,8 @@ fn condition(random: &mut Random, talks: bool) -> String {
         14 => format!("at(A{0})[source(Q{0})] & A{0} > {value}", random.below(1000)),
         15 => "not (at(_)[source(bob)] & dark)".to_owned(),
         16 => format!(".my_name({peer})"),
+        17 => format!("at(_)[source(bob), age(T{0})] & T{0} < {value}", random.below(1000)),
+        18 => format!("not (seen[source({peer}), age(T{0})] & T{0} > 2)", random.below(1000)),
         0 => "flag".to_owned(),
         1 => "not flag".to_owned(),
         2 => "dark".to_owned(),
@@ -217,44 +219,61 @@ fn agent(random: &mut Random, talks: bool) -> String {
 enum DeclaredProperty {
     Count(&'static str, &'static str),
     Within(u32, Cause, &'static str),
+    /// An action, and an event.
     OnlyAfter(&'static str, &'static str),
     AllHandled,
 }
 
+/// What peers say that is an event: its text, and the plans without which it is none.
+const HEARD: [(&str, &str); 6] = [
+    ("+!dim[source(bob)]", "\n+!dim"),
+    ("+seen[source(ann)]", "\n+seen"),
+    ("+seen[source(bob)]", "\n+seen"),
+    ("-seen[source(bob)]", "\n-seen"),
+    ("+at[source(bob)]", "\n+at"),
+    ("-at[source(bob)]", "\n-at"),
+];
+
 #[derive(Clone, Copy)]
 enum Cause {
-    Raised(&'static str),
+    /// The text of an event.
+    Event(&'static str),
     Called(&'static str),
     /// The level is at most this.
     Low(i128),
 }
 
 impl DeclaredProperty {
-    fn random(random: &mut Random, talks: bool) -> Self {
+    fn random(random: &mut Random, agent: &str, talks: bool) -> Self {
         let action =
             if talks && random.chance(30) { random.of(&SENT) } else { random.of(&COUNTED) };
-        match random.below(9) {
-            0..4 => Self::Count(
+        let mut event = random.of(&["+!light", "+!dim"]);
+        if talks && random.chance(60) {
+            let heard = HEARD.iter().filter(|(_, plans)| agent.contains(plans));
+            event = random.of(&heard.map(|(event, _)| *event).collect::<Vec<_>>());
+        }
+        match random.below(if talks { 12 } else { 9 }) {
+            0..=3 => Self::Count(
                 random.of(&["never", "at_most_one", "at_least_one", "exactly_one", "never"]),
                 action,
             ),
             4 => Self::Within(
                 1 + u32::try_from(random.below(3)).unwrap(),
-                Cause::Raised(random.of(&["light", "dim"])),
-                action,
-            ),
-            5 => Self::Within(
-                1 + u32::try_from(random.below(3)).unwrap(),
                 Cause::Called(random.of(&COUNTED)),
                 action,
             ),
-            6 => Self::Within(
+            5 => Self::Within(
                 1 + u32::try_from(random.below(2)).unwrap(),
                 Cause::Low(random.of(&[2, 5])),
                 action,
             ),
-            7 => Self::OnlyAfter(action, random.of(&["light", "dim"])),
-            _ => Self::AllHandled,
+            6 | 7 => Self::OnlyAfter(action, event),
+            8 => Self::AllHandled,
+            _ => Self::Within(
+                1 + u32::try_from(random.below(4)).unwrap(),
+                Cause::Event(event),
+                action,
+            ),
         }
     }
 
@@ -263,13 +282,12 @@ impl DeclaredProperty {
             Self::Count(bound, action) => format!("{bound}({action})"),
             Self::Within(steps, cause, action) => {
                 let cause = match cause {
-                    Cause::Raised(goal) => format!("+!{goal}"),
-                    Cause::Called(action) => (*action).to_owned(),
+                    Cause::Event(text) | Cause::Called(text) => (*text).to_owned(),
                     Cause::Low(limit) => format!("level <= {limit}"),
                 };
                 format!("within({steps}, {cause}, {action})")
             }
-            Self::OnlyAfter(action, goal) => format!("only_after({action}, +!{goal})"),
+            Self::OnlyAfter(action, event) => format!("only_after({action}, {event})"),
             Self::AllHandled => "all_handled".to_owned(),
         }
     }
@@ -284,15 +302,24 @@ struct Monitor {
 }
 
 impl Monitor {
-    fn raised(&mut self, property: &DeclaredProperty, goal: &str) {
+    fn happens(&mut self, property: &DeclaredProperty, event: &str) {
         match property {
-            DeclaredProperty::Within(steps, Cause::Raised(cause), _)
-                if *cause == goal && self.due == 0 =>
+            DeclaredProperty::Within(steps, Cause::Event(cause), _)
+                if *cause == event && self.due == 0 =>
             {
                 self.due = *steps;
             }
-            DeclaredProperty::OnlyAfter(_, event) if *event == goal => self.allowed = true,
+            DeclaredProperty::OnlyAfter(_, cause) if *cause == event => self.allowed = true,
             _ => {}
+        }
+    }
+
+    /// A peer takes back what it said. If that was served before, the answer is due: not to know it breaks fewer properties.
+    fn is_taken_back(&mut self, property: &DeclaredProperty, event: &str) {
+        if let DeclaredProperty::Within(_, Cause::Event(cause), _) = property
+            && *cause == event
+        {
+            self.due = 0;
         }
     }
 
@@ -376,8 +403,15 @@ impl Environment for World<'_> {
     }
 }
 
-/// A peer says something.
-fn hears(interpreter: &mut Interpreter, world: &mut World<'_>) {
+/// What each peer tells.
+type Told = BTreeMap<(usize, &'static str), Vec<Value>>;
+
+/// A peer says something. Returns the event that happens, and the one that is taken back.
+fn hears(
+    interpreter: &mut Interpreter,
+    world: &mut World<'_>,
+    told: &mut Told,
+) -> (Option<String>, Option<String>) {
     let random = &mut *world.random;
     let (performative, about) = random.of(&[
         (Performative::Tell, "seen"),
@@ -390,9 +424,23 @@ fn hears(interpreter: &mut Interpreter, world: &mut World<'_>) {
     let value = Value::Integer(i128::try_from(random.below(4)).unwrap());
     let has_value = performative.has_arguments() && ["at", "dim"].contains(&about);
     let values = if has_value { vec![value] } else { Vec::new() };
-    // What is refused is no message.
     let from = random.below(PEERS.len());
-    _ = interpreter.receive(from, performative, about, values, world);
+    if !interpreter.receive(from, performative, about, values.clone(), world) {
+        return (None, None);
+    }
+    let event = |trigger: &str| Some(format!("{trigger}{about}[source({})]", PEERS[from]));
+    match performative {
+        Performative::Tell => match told.insert((from, about), values.clone()) {
+            Some(before) if before == values => (None, None),
+            _ => (event("+"), event("-")),
+        },
+        Performative::Untell => match told.remove(&(from, about)) {
+            Some(_) => (event("-"), event("+")),
+            None => (None, None),
+        },
+        Performative::Achieve => (event("+!"), None),
+        Performative::Unachieve => (None, event("+!")),
+    }
 }
 
 /// Runs an agent. Returns the violated properties.
@@ -412,9 +460,20 @@ fn runs(
         let talks = !parsed.declarations().peers.is_empty();
         let mut world = World { random, level: None, tells: false, now: 0, calls: BTreeMap::new() };
         let mut monitors = vec![Monitor::default(); promises.len()];
+        let mut told = Told::new();
         for _ in 0..25 {
             match world.random.below(if talks { 9 } else { 6 }) {
-                6.. => hears(&mut interpreter, &mut world),
+                6.. => {
+                    let (happens, taken_back) = hears(&mut interpreter, &mut world, &mut told);
+                    for (monitor, property) in monitors.iter_mut().zip(promises) {
+                        if let Some(event) = &taken_back {
+                            monitor.is_taken_back(property, event);
+                        }
+                        if let Some(event) = &happens {
+                            monitor.happens(property, event);
+                        }
+                    }
+                }
                 number @ (0 | 1) => {
                     let (goal, arguments) = if number == 0 {
                         ("light", Vec::new())
@@ -429,7 +488,8 @@ fn runs(
                         .is_ok()
                     {
                         let pairs = monitors.iter_mut().zip(promises);
-                        pairs.for_each(|(monitor, property)| monitor.raised(property, goal));
+                        let event = format!("+!{goal}");
+                        pairs.for_each(|(monitor, property)| monitor.happens(property, &event));
                     }
                 }
                 2 => {
@@ -486,14 +546,14 @@ fn nothing_that_a_run_breaks_is_proved() {
         let talks = random.chance(50);
         let text = agent(&mut random, talks);
         let promises: Vec<DeclaredProperty> =
-            (0..5).map(|_| DeclaredProperty::random(&mut random, talks)).collect();
+            (0..5).map(|_| DeclaredProperty::random(&mut random, &text, talks)).collect();
         let properties: String = promises
             .iter()
             .enumerate()
             .map(|(n, property)| format!("p{n}: {}; ", property.text()))
             .collect();
         let events = random.of(&["inbox = 1;", "inbox = 2;", "max_events = 1;"]);
-        let preemptive = random.of(&["", "+!light;"]);
+        let preemptive = random.of(&["", "+!light;", "+!dim;"]);
         let configuration = format!(
             "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; clock = now; {events} }};\n\
              basics {{ {BASICS} }};\nclasses {{ shows: on, flash; }};\n\

@@ -217,6 +217,89 @@ fn pair(system: &str) -> tempfile::TempDir {
     folder
 }
 
+/// Agents with texts of their own: `one` calls `on` in nearly every step, and `off` of `two` must not be reached.
+const ALONE: &str = "settings { input = INPUT; output = a.c; header = a.h; basics = b.h; };
+    basics { void on(void); void off(void); };
+    peers { one, two }; messages { tell first from one; tell second from one; tell begin from two; achieve go from one, ROOM; };
+    types { live(void); start(void); done(void); s(void); f1(void); f2(void); f3(void); f4(void);
+        f5(void); };
+    triggerables { +!start; };";
+
+/// What `one` does besides, what `two` does, the room of its ring, the channels, a property, and whether it holds.
+type Alone = (&'static str, &'static str, u8, &'static str, &'static str, bool);
+
+const ORDERS: &str = "+begin <- .send(two, achieve, go); .send(two, achieve, go). +!start <- true.";
+/// Busy until both orders have arrived.
+const BUSY: &str =
+    "+!start <- .send(one, tell, begin); !s. +!s : not f1 <- +f1; !s. +!s : not f2 <- +f2; !s.
+    +!s : not f3 <- +f3; !s. +!s : not f4 <- +f4; !s. +!s : not f5 <- +f5; !s. +!s <- true.
+    +!go : not done <- +done. +!go <- off.";
+const TELLS: &str = "+!start <- .send(two, tell, first); .send(two, tell, second).";
+const COMPARES: &str =
+    "!live. +!live : second[source(one)] & not first[source(one)] <- off; !!live. +!live <- !!live.
+    +!start <- true.";
+const ASKS: &str = "+!start <- .send(two, achieve, go).";
+const ANSWERS: &str = "+!go <- off. +!start <- true.";
+const NEVER: &str = "never_together(one.on, two.off)";
+
+const ALL_ALONE: [Alone; 7] = [
+    // A ring has its room, and no more.
+    (ORDERS, BUSY, 1, "capacity = 2; losses = 0; delay = 1;", NEVER, true),
+    (ORDERS, BUSY, 2, "capacity = 2; losses = 0; delay = 1;", NEVER, false),
+    // A later message may overtake, but both have arrived at the end of a round if nothing is late.
+    (TELLS, COMPARES, 1, "capacity = 2; losses = 0; delay = 1;", NEVER, false),
+    (TELLS, COMPARES, 1, "capacity = 2; losses = 0; delay = 0;", NEVER, true),
+    // An answer counts, if it is not too late and nothing is lost.
+    (
+        ASKS,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = 0; delay = 1;",
+        "within(3, one.send_achieve_go, two.off)",
+        true,
+    ),
+    (
+        ASKS,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = 0; delay = 2;",
+        "within(2, one.send_achieve_go, two.off)",
+        false,
+    ),
+    (
+        ASKS,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = 1; delay = 1;",
+        "within(3, one.send_achieve_go, two.off)",
+        false,
+    ),
+];
+
+#[test]
+fn rooms_orders_and_answers_decide() {
+    if Command::new("spin").arg("-V").output().is_err() {
+        return skip("spin");
+    }
+    for (one, two, room, channels, property, holds) in ALL_ALONE {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        let configuration = ALONE.replace("ROOM", &room.to_string());
+        write("one.conf", &configuration.replace("INPUT", "one.asl"));
+        write("two.conf", &configuration.replace("INPUT", "two.asl"));
+        write("one.asl", &format!("!live. +!live <- on; !!live. {one}"));
+        write("two.asl", two);
+        let system = format!(
+            "agents {{ one: one.conf; two: two.conf; }}; channels {{ {channels} }}; properties {{ p: {property}; }};"
+        );
+        write("a.system", &system);
+        let path = folder.path().join("a.system");
+        let output = asl2c(&["verify", path.to_str().unwrap()]);
+        let expected = i32::from(!holds);
+        assert_eq!(output.status.code(), Some(expected), "{two} {system}\n{}", said(&output));
+    }
+}
+
 const AGENTS: &str = "agents { one: a.conf; two: a.conf; }; ";
 
 #[test]
