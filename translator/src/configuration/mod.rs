@@ -28,6 +28,7 @@ mod parser;
 mod properties;
 pub(crate) mod scanner;
 mod settings;
+mod version;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,6 +37,7 @@ use diagnostic::Span;
 pub use parser::{SECTIONS, parse};
 pub use properties::{CallBound, Cause, Comparison, DeclaredProperty, Formula, Operand, Property};
 pub use settings::SETTINGS;
+pub use version::MessagesVersion;
 
 use crate::syntax::ast::{Name, Operator, Performative, TriggerKind};
 use crate::types::CType;

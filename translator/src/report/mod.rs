@@ -139,6 +139,9 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
         let rooms = program.asked.iter().map(|asked| asked.room).sum();
         figures.push(("goals of peers waiting", at_most(rooms)));
     }
+    if let Some(version) = program.configuration.messages_version() {
+        figures.push(("version of the messages", version.to_string()));
+    }
     figures
 }
 

@@ -4,7 +4,7 @@ use diagnostic::{Diagnostic, closest};
 
 use super::{AgentAction, AgentCause, Channels, ParsedSystem, ROOM, SystemFormula, SystemProperty};
 use crate::code::Code;
-use crate::configuration::{DeclaredProperty, ExternalTrigger, Message};
+use crate::configuration::{DeclaredProperty, ExternalTrigger};
 use crate::gather::gather;
 use crate::program::{Program, trigger_text};
 use crate::syntax::ast::Name;
@@ -126,23 +126,18 @@ fn same_messages(system: &ParsedSystem, members: &[Member], errors: &mut Vec<Dia
     let Some((first, others)) = members.split_first() else { return };
     let own = first.configuration.declarations();
     let names = |peers: &[Name]| peers.iter().map(|peer| peer.text.clone()).collect::<Vec<_>>();
-    let said = |message: &Message| {
-        let Message { performative, name, parameters, senders, room, .. } = message;
-        (*performative, name.text.clone(), parameters.clone(), senders.clone(), *room)
-    };
-    let all_said = |messages: &[Message]| messages.iter().map(said).collect::<Vec<_>>();
     for (agent, member) in system.agents().iter().skip(1).zip(others) {
         let declared = member.configuration.declarations();
         let what = if names(&declared.peers) != names(&own.peers) {
             "peers"
-        } else if all_said(&declared.messages) != all_said(&own.messages) {
+        } else if declared.canonical_messages() != own.canonical_messages() {
             "messages"
         } else {
             continue;
         };
         let message = format!("`{}` has other {what} than `{}`", member.name, first.name);
         errors.push(Code::OtherPeers.at(message, agent.peer.span.clone()).help(
-            "agents that talk have the same sections `peers` and `messages`, in the same order",
+            "agents that talk have the same sections `peers`, in the same order, and `messages`",
         ));
     }
     let missing =
