@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use diagnostic::Diagnostic;
 use translator::configuration::{Configuration, ExternalTrigger};
-use translator::interpreter::{Interpreter, Refused, Value, trigger, with_values};
+use translator::interpreter::{Interpreter, Refused, Value, message_text, trigger, with_values};
 use translator::syntax::ast::Performative;
 use translator::types::TypeKind;
 use translator::{CounterexampleStep, ParsedConfiguration, TranslateError};
@@ -106,8 +106,8 @@ impl Session {
                     .map_or((None, &[][..]), |(peer, said)| (self.peer(peer), said));
                 let sender = sender.unwrap_or_else(|| "a stranger".to_owned());
                 let refused = shown.first().map_or("", |_| ", which is refused");
-                let (what, said) = (performative.name(), with_values(about, said));
-                return vec![at(0, format!("{sender} sends {what} {said}{refused}"))];
+                let what = message_text(&self.configuration, *performative, about, said);
+                return vec![at(0, format!("{sender} sends {what}{refused}"))];
             }
             Some(Statement::Be(peer)) => {
                 let name = self.configuration.peers.get(*peer).map_or("?", |peer| &peer.text);

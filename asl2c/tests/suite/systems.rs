@@ -485,3 +485,56 @@ fn losses_and_delays_are_the_same_for_the_same_seed_and_within_the_bounds() {
         assert!(said(&output).contains(message), "{}", said(&output));
     }
 }
+
+/// The same messages in other words have the same version, which the report shows.
+#[test]
+fn agents_need_the_same_version_of_the_messages() {
+    const SAID: &str = "tell seen(double, peer) from any; achieve go(int) from one, 2;";
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let configuration = |name: &str, messages: &str| {
+        format!(
+            "settings {{ input = a.asl; output = {name}.c; header = {name}.h; basics = {name}_actions.h; }};
+            basics {{ void act(int); }}; peers {{ one, two }}; messages {{ {messages} }}; types {{ live(void); }};"
+        )
+    };
+    write("a.conf", &configuration("a", SAID));
+    write(
+        "a.asl",
+        "!live. +!live <- .broadcast(tell, seen(2.0, self)); !!live. +!go(_) <- act(1). +seen(_, _).",
+    );
+    write("a.system", "agents { one: a.conf; two: b.conf; };");
+    write("two.script", "step 1\n");
+    let run = |arguments: &[&str]| {
+        let mut asl2c = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        // Without compilers the report is fast.
+        asl2c.args(arguments).current_dir(folder.path()).env("PATH", "/nothing").output().unwrap()
+    };
+    let version = |configuration: &str| {
+        let output = run(&["-q", "--report", configuration]);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let mut lines = text.lines();
+        let version = lines.find_map(|line| line.strip_prefix("version of the messages"));
+        version.unwrap_or_else(|| panic!("{}{text}", said(&output))).trim().to_owned()
+    };
+    write(
+        "b.conf",
+        &configuration(
+            "b",
+            "achieve go(int32_t) from one, 2; tell seen(double, peer_t) from two, one;",
+        ),
+    );
+    let output = run(&["run", "a.system", "--script", "two.script"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let text = said(&output);
+    assert!(text.contains("one -> two: tell seen(2.0, one)\n"), "{text}");
+    let one = version("a.conf");
+    assert_eq!(one.len(), 16);
+    assert_eq!(version("b.conf"), one);
+    for (from, to) in [("double", "float"), ("from any", "from one"), ("one, 2", "one, 3")] {
+        write("b.conf", &configuration("b", &SAID.replace(from, to)));
+        let output = run(&["run", "a.system", "--script", "two.script"]);
+        assert!(said(&output).contains("`two` has other messages than `one`"), "{}", said(&output));
+        assert_ne!(version("b.conf"), one);
+    }
+}

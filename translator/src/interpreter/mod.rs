@@ -10,6 +10,7 @@ mod messages;
 mod mind;
 mod plans;
 mod recursion;
+mod said;
 mod story;
 mod value;
 
@@ -20,6 +21,7 @@ use std::sync::Arc;
 use self::evaluate::Substitution;
 use self::messages::Mail;
 use self::recursion::recursive_triggers;
+pub use self::said::message_text;
 use self::story::{Limit, Source};
 pub use self::story::{trigger, with_values};
 pub use self::value::Value;

@@ -7,7 +7,7 @@ mod script;
 
 use diagnostic::Diagnostic;
 use translator::TranslateError;
-use translator::interpreter::Value;
+use translator::interpreter::{Value, message_text};
 use translator::syntax::ast::Performative;
 use translator::system::{ROOM, System};
 
@@ -240,11 +240,8 @@ impl<'a> SystemSession<'a> {
         let text = values.clone();
         if let Err(ChannelFull) = self.now.network.put((from, to), said, values, self.now.round) {
             let (from, to) = (self.name(from), self.name(to));
-            let what = translator::interpreter::with_values(said.1, &text);
-            shown.push(format!(
-                "{from} -> {to}: {} {what}, lost: the channel is full",
-                said.0.name()
-            ));
+            let what = self.text(said, &text);
+            shown.push(format!("{from} -> {to}: {what}, lost: the channel is full"));
             if self.system.channels.losses.is_some() {
                 shown.push(format!("// round {} breaks `{ROOM}`", self.now.round));
                 self.broken.push(ROOM.to_owned());
@@ -265,7 +262,17 @@ impl<'a> SystemSession<'a> {
     }
 
     fn described(&self, message: &Message) -> String {
-        format!("{} -> {}: {}", self.name(message.from), self.name(message.to), message.text())
+        let Message { from, to, performative, about, values, .. } = message;
+        let what = self.text((*performative, about), values);
+        format!("{} -> {}: {what}", self.name(*from), self.name(*to))
+    }
+
+    /// What is said, as agents write it in lines of text. All agents have the same messages.
+    fn text(&self, (performative, about): (Performative, &str), values: &[Value]) -> String {
+        let first = self.system.members.first();
+        first.map_or_else(String::new, |first| {
+            message_text(first.configuration.declarations(), performative, about, values)
+        })
     }
 
     /// The place of a message among all.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use translator::interpreter::{Value, with_values};
+use translator::interpreter::Value;
 use translator::syntax::ast::Performative;
 use translator::system::Channels;
 
@@ -136,12 +136,5 @@ impl Network {
     pub(super) fn is_overdue(&self, round: u64) -> bool {
         let Some(most) = self.channels.delay else { return false };
         self.under_way.iter().any(|message| message.sent + u64::from(most) <= round)
-    }
-}
-
-impl Message {
-    /// `tell at(1, 2)`
-    pub(super) fn text(&self) -> String {
-        format!("{} {}", self.performative.name(), with_values(&self.about, &self.values))
     }
 }
