@@ -47,7 +47,7 @@ use std::collections::HashSet;
 
 pub use backend::c::{ROUNDED, include_path};
 pub use backend::matrix::TraceRow;
-use backend::rust::{camel_case, snake_case};
+use backend::rust::{OWN_TYPES, camel_case, snake_case, variant};
 pub use code::Code;
 pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 pub use configuration::DeclaredProperty;
@@ -468,7 +468,8 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
 
 /// Names must not be Rust keywords, and must stay distinct in Rust.
 fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
-    let mut taken: HashSet<String> = HashSet::from(["Environment::update_beliefs".to_owned()]);
+    let mut taken: HashSet<String> =
+        HashSet::from(["Environment::update_beliefs", "Peer::ALL"].map(str::to_owned));
     let mut check =
         |owner: &str, name: String, source: &Name, known: bool| {
             let fresh = taken.insert(format!("{owner}::{name}"));
@@ -489,8 +490,9 @@ fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic
         let name = program::trigger_name(trigger.operator, trigger.kind, &trigger.name.text);
         check("Agent", snake_case(&name), &trigger.name, false);
     }
-    for (name, _, message) in configuration.receiving() {
+    for (name, performative, message) in configuration.receiving() {
         check("Agent", snake_case(&name), &message.name, false);
+        check("Message", variant(performative, &message.name.text), &message.name, false);
     }
     for action in configuration.sending() {
         check("Environment", snake_case(&action.name.text), &action.name, false);
@@ -500,6 +502,11 @@ fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic
     }
     if let Some(first) = configuration.peers.first() {
         check("", "Peer".to_owned(), first, false);
+    }
+    if let Some(first) = configuration.messages.first() {
+        for name in OWN_TYPES {
+            check("", name.to_owned(), &first.name, false);
+        }
     }
     for declared in &configuration.structs {
         const KNOWN: &str = "Agent Beliefs Environment State Loan Self Box Send Sync Copy Clone Debug PartialEq Default \

@@ -32,6 +32,15 @@ fn bound(case: &Case, main: &str) -> String {
 }
 
 fn bound_with(settings: &str, case: &Case, main: &str) -> String {
+    let folder = built_with(settings, case, main);
+    let output = Command::new(folder.path().join("main")).output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{:?}: {errors}", output.status);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A folder with the compiled program `main` in Rust that uses the bindings of an agent.
+pub(crate) fn built_with(settings: &str, case: &Case, main: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let settings = format!("{settings} instance = context; rust = bindings.rs;");
     let translation = case.translate(&settings).unwrap();
@@ -43,11 +52,10 @@ fn bound_with(settings: &str, case: &Case, main: &str) -> String {
         let output = program.current_dir(folder.path()).output().unwrap();
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{:?}: {errors}", output.status);
-        String::from_utf8(output.stdout).unwrap()
     };
     run(Command::new("cc").args(["-c", "agent.c"]));
     run(Command::new("rustc").args(["--edition", "2024", "-C", "link-arg=agent.o", "main.rs"]));
-    run(&mut Command::new(folder.path().join("main")))
+    folder
 }
 
 /// A panic cannot unwind through C, so it is delayed until C has finished its step.
@@ -422,7 +430,7 @@ const AGED: Case = Case {
 
 const AGED_MAIN: &str = r#"
 mod bindings { include!("bindings.rs"); }
-use bindings::{Agent, Beliefs, Environment, Peer};
+use bindings::{Agent, Beliefs, Environment, Message, Peer};
 struct World(i64);
 impl Environment for World {
     fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
@@ -433,7 +441,7 @@ fn main() {
     let mut agent = Agent::new(Peer::Wingman);
     let mut world = World(0);
     println!("{}", agent.receive_tell_at(&mut world, Peer::Wingman as u8, 1));
-    println!("{}", agent.receive_tell_at(&mut world, Peer::Leader as u8, 4));
+    println!("{}", agent.receive(&mut world, Peer::Leader, Message::TellAt(4)));
     println!("{} {}", agent.receive_tell_low(Peer::Leader as u8), agent.achieve_go());
     agent.next_step(&mut world);
     println!("{}", world.0);

@@ -314,6 +314,15 @@ fn words_of_rust_are_refused() {
             "types { g(void); aB(void); a_b(void); }; settables { aB; a_b; };",
             "`a_b` cannot be called `set_a_b`",
         ),
+        (
+            "types { g(void); }; peers { x, y }; messages { tell a1 from x; tell a_1 from x; };",
+            "`a_1` cannot be called `TellA1`",
+        ),
+        (
+            "structs { message { int x; }; }; types { g(void); }; peers { x, y }; messages { tell b from x; };",
+            "`message` cannot be called `Message`",
+        ),
+        ("types { g(void); }; peers { x, aLL };", "`aLL` cannot be called `ALL`"),
     ] {
         refused(&rust, sections, expected);
     }

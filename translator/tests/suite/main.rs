@@ -14,6 +14,7 @@ mod generated;
 mod guide;
 mod harness;
 mod hostile;
+mod lines;
 mod messages;
 mod refused;
 mod validation;

@@ -43,7 +43,7 @@ pub(crate) use self::exercise::{
 pub(crate) use self::handlers::plan_name;
 pub(crate) use self::harness::{Moment, harness, unknown_type};
 pub use self::host::{ANSWERS, CALLS, STEPS};
-pub(crate) use self::messages::received;
+pub(crate) use self::messages::{Received, received};
 pub use self::names::include_path;
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::scripted::scripted;
