@@ -479,12 +479,15 @@ fn agents_of_other_versions_refuse_each_other() {
     let bound = &mut Bound::new();
     let version = bound.version.clone();
     let ours = u64::from_str_radix(&version, 16).unwrap();
-    let other = format!("{:016x}", ours ^ 1);
     let long = "x".repeat(2000);
-    for rest in ["leader tell low", "pilot tell low", "", &long] {
-        let (error, text) = bound.read(format!("{other} {rest}"));
-        assert_eq!(error, format!("OtherVersion {{ ours: {ours}, theirs: {} }}", ours ^ 1));
-        let expected = format!("it is of version {other} of the messages, and not of {version}");
+    // An older one is no better than a newer one: they have no order.
+    let others = [ours - 1, ours + 1, 0, u64::MAX];
+    let rests = ["leader tell low", "pilot tell low", "", &long];
+    for (theirs, rest) in others.into_iter().flat_map(|other| rests.map(|rest| (other, rest))) {
+        let (error, text) = bound.read(format!("{theirs:016x} {rest}"));
+        assert_eq!(error, format!("OtherVersion {{ ours: {ours}, theirs: {theirs} }}"));
+        let expected =
+            format!("it is of version {theirs:016x} of the messages, and not of {version}");
         assert_eq!(text, expected);
     }
     let upper = version.to_uppercase();
