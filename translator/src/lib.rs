@@ -56,7 +56,7 @@ pub use counterexample::{CounterexampleStep, Move, UnderWay};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
 pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise};
-pub use format::format;
+pub use format::{format, format_system};
 use gather::gather;
 pub use model::Model;
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, STEPS};

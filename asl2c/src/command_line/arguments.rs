@@ -102,7 +102,7 @@ pub(super) enum Task {
         #[arg(value_name = "CODE", value_parser = any_code())]
         code: Option<String>,
     },
-    /// Format agents' texts in the canonical style
+    /// Format the texts of agents and systems in the canonical style
     ///
     /// A text that cannot be parsed is not changed, and its errors are shown; the exit status is 1 then.
     Fmt(Fmt),
@@ -187,8 +187,8 @@ pub(super) struct Verify {
 /// Arguments of `asl2c fmt`.
 #[derive(Debug, Args)]
 pub(super) struct Fmt {
-    /// The agents' texts; `-` formats standard input to standard output
-    #[arg(value_name = "AGENT.ASL", required = true)]
+    /// The texts of agents and systems; `-` formats standard input to standard output
+    #[arg(value_name = "AGENT.ASL|NAME.SYSTEM", required = true)]
     pub(super) files: Vec<PathBuf>,
     /// Change nothing: list the files that are not formatted, with exit status 1 if there are some
     #[arg(long)]

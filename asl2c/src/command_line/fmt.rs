@@ -1,14 +1,15 @@
-//! `asl2c fmt`: formats the texts of agents.
+//! `asl2c fmt`: formats the texts of agents and of systems.
 
 use std::io::Read as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use translator::format;
+use translator::system::begins_system;
+use translator::{format, format_system};
 
 use super::arguments::{Fmt, is_json};
 use super::{CommandError, complain, print};
-use crate::agent::ReadError;
+use crate::agent::{ReadError, is_system};
 use crate::written::rewrite;
 
 /// Formats each file. The others are formatted if one fails.
@@ -37,7 +38,9 @@ fn one(path: &Path, check: bool) -> Result<bool, CommandError> {
     let piped = path == Path::new("-");
     let text = read(path, piped)?;
     let name = if piped { "input".to_owned() } else { path.display().to_string() };
-    let formatted = format(&name, &text)?;
+    // What is piped has no name.
+    let is_system = if piped { begins_system(&text) } else { is_system(path) };
+    let formatted = if is_system { format_system(&name, &text) } else { format(&name, &text) }?;
     if check {
         return Ok(formatted == text);
     }

@@ -1,4 +1,4 @@
-//! `asl2c fmt`: files, standard input, `--check`, and texts with errors.
+//! `asl2c fmt`: files of agents and systems, standard input, `--check`, and texts with errors.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -6,6 +6,8 @@ use std::process::{Command, Output, Stdio};
 
 const UGLY: &str = "!go .\n// start\n+!go<-on ;   off.\n";
 const FORMATTED: &str = "!go.\n// start\n+!go <- on; off.\n";
+const SYSTEM: &str = "// two\nagents{a:x.conf;b : y.conf ;};";
+const FORMATTED_SYSTEM: &str = "// two\nagents { a: x.conf; b: y.conf; };\n";
 
 fn fmt(folder: &Path, arguments: &[&str], input: &str) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_asl2c"))
@@ -71,6 +73,27 @@ fn standard_input_is_formatted_to_standard_output() {
     let output = fmt(folder.path(), &["--message-format", "json", "-"], "+!go <- ");
     let line: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
     assert_eq!((&line["code"], &line["file"]), (&"syntax".into(), &"input".into()));
+}
+
+/// A file is known by its name, and what is piped by its begin.
+#[test]
+fn systems_are_formatted_beside_agents() {
+    let folder = folder();
+    let folder = folder.path();
+    for (name, text) in [("d.system", SYSTEM), ("e.system", "+!go <- on.")] {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    assert_eq!(fmt(folder, &["--check", "d.system"], "").stdout, b"d.system\n");
+    let output = fmt(folder, &["a.asl", "d.system", "e.system"], "");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains(" --> e.system:1:1\n"), "{said}");
+    assert_eq!(text(folder, "a.asl"), FORMATTED);
+    assert_eq!(text(folder, "d.system"), FORMATTED_SYSTEM);
+    assert_eq!(fmt(folder, &["-"], SYSTEM).stdout, FORMATTED_SYSTEM.as_bytes());
+    let output = fmt(folder, &["-"], "agents { a x.conf; };");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains(" --> input:1:12\n"), "{said}");
 }
 
 /// Replacing invalid bytes in a comment would lose them.

@@ -49,15 +49,15 @@ impl<'a> Scanner<'a> {
             self.position = self.text.len() - trimmed.len();
             if trimmed.starts_with("//") {
                 self.position += trimmed.find('\n').unwrap_or(trimmed.len());
-            } else if trimmed.starts_with("/*") {
+            } else if let Some(comment) = trimmed.strip_prefix("/*") {
                 let start = self.position;
-                let Some(length) = trimmed.find("*/") else {
+                let Some(length) = comment.find("*/") else {
                     self.position = self.text.len();
                     return Err(Code::NotClosed
                         .at("comment is never closed", start..start + 2)
                         .help("close it with `*/`"));
                 };
-                self.position += length + 2;
+                self.position += length + 4;
             } else {
                 return Ok(());
             }

@@ -50,6 +50,11 @@ impl<'a> Gap<'a> {
         gap
     }
 
+    /// Number of characters of the comments in one line, with the blanks before them.
+    pub(super) fn width(&self) -> usize {
+        self.comments.iter().map(|comment| comment.text.chars().count() + 1).sum()
+    }
+
     /// Whether the author breaks the line here.
     pub(super) fn is_broken(&self) -> bool {
         self.newlines > 0

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::WIDTH;
 use super::comments::Gap;
+use super::lines::{Lines, Separator};
 use super::roles::{Placed, Role};
 use crate::syntax::lexer::{Token, TokenKind};
 
@@ -38,11 +39,11 @@ impl Layout<'_> {
         let mut starts = starts.map(|(index, _)| index).peekable();
         while let Some(start) = starts.next() {
             let end = starts.peek().copied().unwrap_or(self.tokens.len());
-            lines.between(&self.gaps[start]);
+            lines.between(&self.gaps[start], 0, 0);
             self.statement(start..end, &mut lines);
         }
         if let Some(gap) = self.gaps.last() {
-            lines.between(&Gap { newlines: gap.newlines.min(1), ..gap.clone() });
+            lines.end(gap);
         }
         lines.text
     }
@@ -52,7 +53,7 @@ impl Layout<'_> {
         for index in range.clone() {
             if index > range.start {
                 let separator = self.separator(index, breaks, lines.column);
-                self.gap(index, separator, lines);
+                lines.gap(&self.gaps[index], separator, self.indent(index), self.closes(index));
             }
             lines.push(self.of(index));
         }
@@ -125,53 +126,27 @@ impl Layout<'_> {
         }
     }
 
-    fn gap(&self, index: usize, separator: Separator, lines: &mut Lines) {
-        let (gap, indent) = (&self.gaps[index], self.indent(index));
-        let Some(last) = gap.comments.last() else {
-            return match separator {
-                Separator::Newline => lines.newline(indent),
-                Separator::Blank => lines.push(" "),
-                Separator::Nothing => {}
-            };
-        };
-        let mut broken = false;
-        for comment in &gap.comments {
-            if comment.newlines > 0 {
-                lines.newline(indent);
-                broken = true;
-            } else if !lines.text.ends_with(['(', '[']) {
-                lines.push(" ");
-            }
-            lines.comment(comment.text);
-        }
-        let closes = separator == Separator::Nothing
-            && matches!(
-                self.tokens[index].kind,
-                TokenKind::Comma
-                    | TokenKind::Semicolon
-                    | TokenKind::Dot
-                    | TokenKind::RightParenthesis
-                    | TokenKind::RightBracket
-                    | TokenKind::LeftParenthesis
-                    | TokenKind::LeftBracket
-            );
-        if last.ends_line() || gap.newlines > 0 || separator == Separator::Newline && !broken {
-            lines.newline(indent);
-        } else if !closes {
-            lines.push(" ");
-        }
+    /// Whether a token is written behind a comment without a blank.
+    fn closes(&self, index: usize) -> bool {
+        matches!(
+            self.tokens[index].kind,
+            TokenKind::Comma
+                | TokenKind::Semicolon
+                | TokenKind::Dot
+                | TokenKind::RightParenthesis
+                | TokenKind::RightBracket
+                | TokenKind::LeftParenthesis
+                | TokenKind::LeftBracket
+        )
     }
 
     /// Number of characters of tokens in one line, with the comments and blanks before them.
     fn width(&self, range: Range<usize>) -> usize {
         let start = range.start;
-        let comments = |index: usize| -> usize {
-            self.gaps[index].comments.iter().map(|c| c.text.chars().count() + 1).sum()
-        };
         range
             .map(|index| {
                 let blank = index > start && self.roles[index].role != Role::Close;
-                let before = if index > start { comments(index) } else { 0 };
+                let before = if index > start { self.gaps[index].width() } else { 0 };
                 usize::from(blank) + before + self.of(index).chars().count()
             })
             .sum()
@@ -179,67 +154,5 @@ impl Layout<'_> {
 
     fn of(&self, index: usize) -> &str {
         self.text.get(self.tokens[index].span.clone()).unwrap_or_default()
-    }
-}
-
-/// What is between two tokens of a statement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Separator {
-    Nothing,
-    Blank,
-    Newline,
-}
-
-/// The output.
-#[derive(Debug, Default)]
-struct Lines {
-    text: String,
-    /// Number of characters in the last line.
-    column: usize,
-}
-
-impl Lines {
-    fn push(&mut self, text: &str) {
-        self.text.push_str(text);
-        self.column += text.chars().count();
-    }
-
-    fn newline(&mut self, indent: usize) {
-        self.text.push('\n');
-        self.text.extend(std::iter::repeat_n(' ', indent));
-        self.column = indent;
-    }
-
-    /// A comment, without blanks at the ends of its lines.
-    fn comment(&mut self, text: &str) {
-        for (index, line) in text.lines().enumerate() {
-            if index > 0 {
-                self.newline(0);
-            }
-            self.push(line.trim_end());
-        }
-    }
-
-    /// What is between two statements, or before the first or behind the last one.
-    fn between(&mut self, gap: &Gap<'_>) {
-        for comment in &gap.comments {
-            if comment.newlines > 0 {
-                self.lines(comment.newlines);
-            } else if !self.text.is_empty() {
-                self.push(" ");
-            }
-            self.comment(comment.text);
-        }
-        self.lines(gap.newlines);
-    }
-
-    /// A new line, unless the text begins here; before it an empty one if there are some.
-    fn lines(&mut self, newlines: usize) {
-        if !self.text.is_empty() {
-            if newlines > 1 {
-                self.text.push('\n');
-            }
-            self.newline(0);
-        }
     }
 }

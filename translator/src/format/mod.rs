@@ -1,4 +1,4 @@
-//! Formats an agent's text in one canonical style.
+//! Formats the text of an agent or of a system in one canonical style.
 //!
 //! The formatter works on tokens, not on the tree: it changes only what is between them, so it can neither lose
 //! a comment nor change the meaning. As in gofmt, the author decides where lines are broken, and the formatter
@@ -6,7 +6,9 @@
 
 mod comments;
 mod layout;
+mod lines;
 mod roles;
+mod sections;
 
 use diagnostic::{Diagnostic, Source};
 
@@ -16,6 +18,7 @@ use crate::TranslateError;
 use crate::gather::gather;
 use crate::syntax::lexer::tokenize;
 use crate::syntax::parse;
+use crate::system::parse_system;
 
 /// Maximum number of characters in a line, if there is a place to break it. Comments are never broken.
 const WIDTH: usize = 120;
@@ -35,6 +38,20 @@ const WIDTH: usize = 120;
 pub fn format(name: &str, text: &str) -> Result<String, TranslateError> {
     formatted(text)
         .map_err(|found| TranslateError::Refused(gather([(found, Source { name, text })])))
+}
+
+/// The text of a system in canonical style; `name` is its file's name for messages.
+///
+/// - A section is one line, or each of its entries begins a line. An entry is broken behind the commas of a formula.
+/// - Where the author breaks one of these it stays broken, and a line of more than 120 characters is broken.
+/// - Comments stay where they are; of several empty lines one is kept, and none at the begin and the end of a section.
+///
+/// The meaning stays the same, and formatted text is not changed.
+///
+/// # Errors
+/// [`TranslateError::Refused`] with all errors of a text that cannot be parsed.
+pub fn format_system(name: &str, text: &str) -> Result<String, TranslateError> {
+    parse_system(name, text).map(|_| sections::formatted(text))
 }
 
 /// As [`format()`].

@@ -1,6 +1,7 @@
 use proptest::test_runner::{Config, TestRunner};
 
 use super::*;
+use crate::system::ParsedSystem;
 
 #[track_caller]
 fn check(text: &str, expected: &str) {
@@ -150,6 +151,111 @@ fn disturbed_agents_keep_their_meaning_and_are_stable() {
             assert_eq!(content(&once), content(&text));
             assert_eq!(tree(&once), tree(&text));
             assert_eq!(formatted(&once).unwrap(), once);
+            assert!(once.lines().all(|line| line.trim_end() == line), "{once}");
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[track_caller]
+fn check_system(text: &str, expected: &str) {
+    let formatted = format_system("x.system", text).unwrap();
+    assert_eq!(formatted, expected);
+    assert_eq!(format_system("x.system", expected).unwrap(), expected, "not stable");
+}
+
+#[test]
+fn sections_are_one_line_or_one_for_each_entry() {
+    check_system(
+        "agents{a:x.conf;b : two words.conf ; } ;channels { capacity=3 ;losses = any; }\n\n\n\
+         properties { p[R-1,R-2.a] : never_together ( a . x,b.y ) ; };",
+        "agents { a: x.conf; b: two words.conf; };\nchannels { capacity = 3; losses = any; }\n\n\
+         properties { p [R-1, R-2.a]: never_together(a.x, b.y); };\n",
+    );
+    check_system(
+        "agents\n{\n\na: x.conf; b:\ny.conf;\n\n\nc: /* d */ z//.conf /* e */;\n\n} channels { };",
+        "agents {\n  a: x.conf;\n  b: y.conf;\n\n  c: /* d */ z//.conf /* e */;\n}\nchannels { };\n",
+    );
+}
+
+#[test]
+fn formulae_are_broken_behind_commas() {
+    check_system(
+        "agents { a: x.conf; }; properties { p: within(1, a.+! g,\n b.x,c.\ny); };",
+        "agents { a: x.conf; };\nproperties {\n  p: within(1, a.+!g,\n    b.x, c.y);\n};\n",
+    );
+    let name = |length: usize| "a".repeat(length);
+    let (n50, n60) = (name(50), name(60));
+    check_system(
+        &format!("agents {{ a: x.conf; }}; properties {{ p: never_together({n50}.b, {n60}.c); }};"),
+        &format!(
+            "agents {{ a: x.conf; }};\nproperties {{\n  p: never_together({n50}.b,\n    {n60}.c);\n}};\n"
+        ),
+    );
+}
+
+#[test]
+fn comments_of_a_system_stay_where_they_are() {
+    check_system(
+        "// one\n\n\n// two\nagents { // three\n\n  // four  \n a /* five */ : x.conf; // six\n// seven\n}; // eight\n\n",
+        "// one\n\n// two\nagents { // three\n\n  // four\n  a /* five */: x.conf; // six\n  // seven\n}; // eight\n",
+    );
+    check_system(
+        "\u{feff}agents { /* one */ a: x.conf; } // two\n; properties { p: // three\n within(1, // four\n a.x, /*/ five */ b.y); };",
+        "agents { /* one */ a: x.conf; } // two\n;\nproperties {\n  p: // three\n    within(1, // four\n    a.x, /*/ five */ b.y);\n};\n",
+    );
+}
+
+/// What a system declares, without places.
+fn declared(text: &str) -> Option<String> {
+    let (parsed, found) = ParsedSystem::read("", text);
+    let shown = format!("{parsed:?}").replace(&format!("{text:?}"), "");
+    let digit = |c: char| c.is_ascii_digit();
+    let parts: Vec<&str> = shown.split("..").collect();
+    found.is_empty().then(|| parts.iter().map(|part| part.trim_matches(digit)).collect())
+}
+
+#[test]
+fn disturbed_systems_keep_their_meaning_and_are_stable() {
+    const GAPS: [&str; 8] =
+        [" ", "\n", "\t\t", "\n\n\n", " /* c */ ", " // c\n", "\n/* c\n d */\n", "\r\n"];
+    let texts = [
+        include_str!("../../agents/systems/corridor_calm.system"),
+        include_str!("../../agents/systems/contract.system"),
+        "agents { a: ../x y.conf; b: z.conf; } properties { p: within(2, a.+!g, b.x); q [A-1, B.2]: within(2, a.-c, b.x); }",
+    ];
+    let strategy = (0..texts.len(), proptest::collection::vec(proptest::num::u8::ANY, 1..200));
+    let config = Config { cases: 300, failure_persistence: None, ..Config::default() };
+    TestRunner::new(config)
+        .run(&strategy, |(index, choices)| {
+            let mut choices = choices.iter().cycle();
+            let (mut text, mut before) = (String::new(), "");
+            for token in sections::tokens(texts[index]).0 {
+                // Here nothing may stand.
+                let is_fixed = ["+", "-", "!"].contains(&token.text) || before == "[";
+                let choice = choices.next().copied().unwrap_or_default();
+                match GAPS.get(usize::from(choice % 16)) {
+                    Some(gap) if !is_fixed => text.push_str(gap),
+                    _ => text.push(' '),
+                }
+                if is_fixed {
+                    text.truncate(text.trim_end().len());
+                }
+                text.push_str(token.text);
+                before = token.text;
+            }
+            let Some(meaning) = declared(&text) else { return Ok(()) };
+            let once = format_system("x.system", &text).unwrap();
+            assert_eq!(declared(&once).as_ref(), Some(&meaning), "{text}\n{once}");
+            let content = |text: &str| -> Vec<String> {
+                let (tokens, behind) = sections::tokens(text);
+                let gaps = tokens.iter().map(|token| &token.gap).chain([&behind]);
+                let comments = gaps.flat_map(|gap| &gap.comments).map(|comment| comment.text);
+                let all = tokens.iter().map(|token| token.text).chain(comments);
+                all.map(str::to_owned).collect()
+            };
+            assert_eq!(content(&once), content(&text));
+            assert_eq!(format_system("x.system", &once).unwrap(), once);
             assert!(once.lines().all(|line| line.trim_end() == line), "{once}");
             Ok(())
         })

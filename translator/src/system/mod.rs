@@ -15,9 +15,9 @@
 mod compose;
 mod parser;
 
-use diagnostic::Source;
-
 pub use compose::{Member, System, compose};
+use diagnostic::{Diagnostic, Source, Span};
+pub use parser::{CHANNELS, SECTIONS, begins_system};
 
 use crate::TranslateError;
 use crate::configuration::{ExternalTrigger, Property};
@@ -53,6 +53,8 @@ pub struct Agent {
     pub peer: Name,
     /// Path of its configuration, relative to the system's file.
     pub configuration: String,
+    /// The place of that path.
+    pub place: Span,
 }
 
 /// What lies between two agents, in each direction.
@@ -124,9 +126,25 @@ impl SystemFormula {
 }
 
 impl ParsedSystem {
+    /// What can be read of a text, and all errors; `name` is its file's name for messages.
+    pub fn read(name: &str, text: &str) -> (Self, Vec<Diagnostic>) {
+        let (declared, diagnostics) = parser::parse(text);
+        (Self { name: name.to_owned(), text: text.to_owned(), declared }, diagnostics)
+    }
+
+    /// The text that was parsed.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The agents, in the order in which they make their steps when the system is run.
     pub fn agents(&self) -> &[Agent] {
         &self.declared.agents
+    }
+
+    /// The properties of the whole.
+    pub fn properties(&self) -> &[SystemProperty] {
+        &self.declared.properties
     }
 
     fn source(&self) -> Source<'_> {
@@ -139,8 +157,7 @@ impl ParsedSystem {
 /// # Errors
 /// [`TranslateError::Refused`] with all errors.
 pub fn parse_system(name: &str, text: &str) -> Result<ParsedSystem, TranslateError> {
-    let (declared, diagnostics) = parser::parse(text);
-    let parsed = ParsedSystem { name: name.to_owned(), text: text.to_owned(), declared };
+    let (parsed, diagnostics) = ParsedSystem::read(name, text);
     if diagnostics.is_empty() {
         return Ok(parsed);
     }

@@ -6,8 +6,10 @@ use super::{Agent, AgentAction, AgentCause, Channels, Declared, ROOM, SystemForm
 use crate::code::Code;
 use crate::configuration::scanner::{Parsed, Scanner, advice};
 
-const SECTIONS: [&str; 3] = ["agents", "channels", "properties"];
-const CHANNELS: [&str; 3] = ["capacity", "losses", "delay"];
+/// The sections of a system.
+pub const SECTIONS: [&str; 3] = ["agents", "channels", "properties"];
+/// The settings of channels.
+pub const CHANNELS: [&str; 3] = ["capacity", "losses", "delay"];
 /// A model with more has too many states to be searched.
 const MOST: u32 = 16;
 
@@ -35,6 +37,15 @@ pub(super) fn parse(text: &str) -> (Declared, Vec<Diagnostic>) {
         );
     }
     (parser.declared, parser.diagnostics)
+}
+
+/// Whether a text is that of a system, however wrong, and of no agent: it begins with a section.
+pub fn begins_system(text: &str) -> bool {
+    let mut scanner = Scanner { text, position: 0 };
+    scanner.take("\u{feff}");
+    let section = scanner.word("a section name");
+    section.is_ok_and(|section| SECTIONS.contains(&section.text.as_str()))
+        && scanner.expect("{").is_ok()
 }
 
 struct Parser<'a> {
@@ -103,13 +114,15 @@ impl Parser<'_> {
         if configuration.is_empty() {
             return Err(self.scanner.unexpected("the path of a configuration"));
         }
+        let start = self.scanner.position;
         self.scanner.position += configuration.len();
+        let place = start..self.scanner.position;
         self.scanner.expect(";")?;
         if self.declared.agents.iter().any(|other| other.peer.text == peer.text) {
             let message = format!("a second agent `{}`", peer.text);
             return Err(Code::DeclaredTwice.at(message, peer.span).help("a peer is one agent"));
         }
-        self.declared.agents.push(Agent { peer, configuration });
+        self.declared.agents.push(Agent { peer, configuration, place });
         Ok(())
     }
 
@@ -246,6 +259,17 @@ mod tests {
             declared.properties.iter().map(|property| property.formula.actions().len()).collect();
         assert_eq!(actions, [3, 1, 3]);
         assert_eq!(declared.properties[0].requirements, ["R-1", "R-2"]);
+    }
+
+    #[test]
+    fn a_system_is_known_by_its_begin() {
+        for text in ["agents {", "\u{feff}// b.\n properties /* c */ { p", "channels{capacity=9;}"]
+        {
+            assert!(begins_system(text), "{text}");
+        }
+        for text in ["", "agents.", "agents(1). +!go.", "settings {", "/* agents {"] {
+            assert!(!begins_system(text), "{text}");
+        }
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! The formatter: the shipped agents are formatted, and formatting changes no meaning.
+//! The formatter: the shipped agents and systems are formatted, and formatting changes no meaning.
 
 use std::path::Path;
 
-use translator::format;
 use translator::syntax::parse;
+use translator::{format, format_system};
 
 /// The tree of a text, without places.
 fn tree(text: &str) -> String {
@@ -27,20 +27,24 @@ pub(crate) fn keeps_its_meaning(text: &str) {
 }
 
 #[test]
-fn the_shipped_agents_are_formatted() {
+fn the_shipped_agents_and_systems_are_formatted() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut found = 0;
-    for folder in ["agents", "../autopilot/agent"] {
+    let (mut agents, mut systems) = (0, 0);
+    for folder in ["agents", "agents/systems", "../autopilot/agent"] {
         for file in std::fs::read_dir(root.join(folder)).unwrap() {
             let path = file.unwrap().path();
-            if path.extension().is_some_and(|extension| extension == "asl") {
-                let text = std::fs::read_to_string(&path).unwrap();
-                assert_eq!(format("a.asl", &text).unwrap(), text, "{}", path.display());
-                found += 1;
-            }
+            let (format, count): (fn(&str, &str) -> _, _) =
+                match path.extension().and_then(|ending| ending.to_str()) {
+                    Some("asl") => (format, &mut agents),
+                    Some("system") => (format_system, &mut systems),
+                    _ => continue,
+                };
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert_eq!(format("x", &text).unwrap(), text, "{}", path.display());
+            *count += 1;
         }
     }
-    assert!(found >= 7, "{found} agents");
+    assert!(agents >= 11 && systems >= 4, "{agents} agents, {systems} systems");
 }
 
 #[test]

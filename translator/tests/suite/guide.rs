@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use translator::system::parse_system;
-use translator::{Translation, format, obligations, parse_configuration, translate};
+use translator::{Translation, format, format_system, obligations, parse_configuration, translate};
 
 use crate::harness::run_program;
 
@@ -107,6 +107,7 @@ fn every_example_of_the_guide_does_what_it_says() {
             "sh" | "console" | "session" => {}
             "system" => {
                 assert_eq!(parse_system("a.system", &content).unwrap().agents().len(), 2);
+                assert_eq!(format_system("a.system", &content).unwrap(), content);
                 checked += 1;
             }
             "properties" => {
