@@ -1,10 +1,12 @@
 //! Completion: names that fit before the cursor.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind, CompletionParams};
 use serde_json::{Value, json};
 use translator::configuration::{Configuration, SECTIONS, SETTINGS};
+use translator::system::{self, CHANNELS, ParsedSystem};
 use translator::types::{CType, TypeKind};
 
 use super::answers::{Answer, parameters, result};
@@ -17,6 +19,8 @@ pub(super) fn complete(server: &mut Server, params: Value) -> Answer {
     let at = params.text_document_position_params;
     let (path, ..) = server.cursor(&at)?;
     let texts = related(&mut server.files, &path);
+    let members = server.files.members_of(&path);
+    let beside = server.files.in_folder_of(&path);
     let (_, file, offset) = server.cursor(&at)?;
     let mut items = Items::default();
     match &file.content {
@@ -27,6 +31,14 @@ pub(super) fn complete(server: &mut Server, params: Value) -> Answer {
             in_agent(statement, configuration, &mut items);
         }
         Content::Configuration(text) => in_section(&file.text()[..offset], &text.tree, &mut items),
+        Content::System(text) => {
+            let known = members.iter().map(|(path, _)| {
+                let file = server.files.get(path);
+                file.and_then(File::configuration).map(|text| &text.tree)
+            });
+            let known: Vec<Option<&Configuration>> = known.collect();
+            in_system(&file.text()[..offset], &text.tree, &known, &beside, &mut items);
+        }
     }
     result(json!({ "isIncomplete": false, "items": items.list }))
 }
@@ -265,18 +277,88 @@ fn part_of(before: &str) -> Part {
     }
 }
 
+/// The section in which a text ends, and the begin of an entry there.
+fn entry_of(before: &str) -> Option<(&str, &str)> {
+    let open = before.rfind('{').filter(|open| !before[*open..].contains('}'))?;
+    let head = before[..open].trim_end();
+    let section = &head[head.trim_end_matches(is_word).len()..];
+    Some((section, before[open + 1..].rsplit(';').next().unwrap_or_default()))
+}
+
+/// Names that can follow `before` in a system, with the configurations of its agents, and those in its folder.
+fn in_system(
+    before: &str,
+    system: &ParsedSystem,
+    known: &[Option<&Configuration>],
+    beside: &[PathBuf],
+    items: &mut Items,
+) {
+    let Some((section, entry)) = entry_of(before) else {
+        for section in system::SECTIONS {
+            items.add(section, CompletionItemKind::Keyword, "section");
+        }
+        return;
+    };
+    let agents = system.agents();
+    match section {
+        "agents" if entry.contains(':') => {
+            for name in beside.iter().filter_map(|path| path.file_name()) {
+                items.add(&name.to_string_lossy(), CompletionItemKind::File, "configuration");
+            }
+        }
+        "agents" => known.iter().flatten().for_each(|configuration| items.peers(configuration)),
+        "channels" => match entry.split_once('=').map(|(setting, _)| setting.trim()) {
+            None => {
+                for setting in CHANNELS {
+                    items.add(setting, CompletionItemKind::Property, "setting");
+                }
+            }
+            Some("capacity") => {}
+            Some(_) => items.add("any", CompletionItemKind::Value, ""),
+        },
+        "properties" if entry.contains('(') => {
+            let typed = entry.trim_end_matches(is_word);
+            let event = typed.trim_end_matches(['+', '-', '!']);
+            let Some(named) = event.strip_suffix('.') else {
+                for agent in agents {
+                    items.add(&agent.peer.text, CompletionItemKind::Variable, &agent.configuration);
+                }
+                return;
+            };
+            let named = &named[named.trim_end_matches(is_word).len()..];
+            let index = agents.iter().position(|agent| agent.peer.text == named);
+            let Some(configuration) = index.and_then(|index| *known.get(index)?) else { return };
+            if event.len() < typed.len() {
+                for event in &configuration.triggerables {
+                    items.add(&event.name.text, CompletionItemKind::Event, "");
+                }
+                return;
+            }
+            items.basics(configuration, |_| true);
+            for class in &configuration.classes {
+                items.add(&class.name.text, CompletionItemKind::Class, "class");
+            }
+            for action in configuration.sending() {
+                items.add(&action.name.text, CompletionItemKind::Function, "message");
+            }
+        }
+        "properties" if entry.contains(':') => {
+            for formula in ["never_together", "within"] {
+                items.add(formula, CompletionItemKind::Keyword, "");
+            }
+        }
+        _ => {}
+    }
+}
+
 /// Names that can follow `before` in a configuration.
 fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
-    let opened = before.rfind('{').filter(|open| !before[*open..].contains('}'));
-    let Some(open) = opened else {
+    let Some((section, entry)) = entry_of(before) else {
         for section in SECTIONS {
             items.add(section, CompletionItemKind::Keyword, "section");
         }
         return;
     };
-    let head = before[..open].trim_end();
-    let section = &head[head.trim_end_matches(is_word).len()..];
-    let entry = before[open + 1..].rsplit(';').next().unwrap_or_default();
     let actions = |items: &mut Items| items.basics(configuration, |_| true);
     let beliefs =
         |items: &mut Items| items.beliefs_and_goals(configuration, CompletionItemKind::Property);

@@ -1,4 +1,4 @@
-//! Texts of agents and configurations, open in the editor or on disk, and which belong together.
+//! Texts of agents, configurations and systems, open in the editor or on disk, and which belong together.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -7,10 +7,14 @@ use std::path::{Path, PathBuf};
 use gen_lsp_types::{Position, Range as Place};
 use translator::configuration::Configuration;
 use translator::syntax::Document;
-use translator::{ParsedConfiguration, TranslateError, configuration, parse_configuration};
+use translator::system::{Agent, ParsedSystem};
+use translator::{
+    Diagnostic, ParsedConfiguration, TranslateError, configuration, parse_configuration,
+};
 
 use super::positions::Lines;
 use super::uri::{plain, uri_of};
+use crate::agent::{ReadError, folder, is_system, read};
 
 /// A text, and what is known of it.
 #[derive(Debug)]
@@ -32,6 +36,28 @@ pub(super) struct Open {
 pub(super) enum Content {
     Agent(Box<Document>),
     Configuration(Box<ConfigurationText>),
+    System(Box<SystemText>),
+}
+
+/// What a text is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Agent,
+    Configuration,
+    System,
+}
+
+impl Kind {
+    /// By the file's name, or the language that the editor says; what an editor sends otherwise is a configuration.
+    pub(super) fn of(path: &Path, language: &str) -> Self {
+        if is_system(path) || language == "agentspeak-system" {
+            Self::System
+        } else if has_ending(path, "asl") || language == "agentspeak" {
+            Self::Agent
+        } else {
+            Self::Configuration
+        }
+    }
 }
 
 /// The text of a configuration.
@@ -51,13 +77,28 @@ impl ConfigurationText {
     }
 }
 
+/// The text of a system.
+#[derive(Debug)]
+pub(super) struct SystemText {
+    /// What could be read, also if there are errors.
+    pub(super) tree: ParsedSystem,
+    pub(super) errors: Vec<Diagnostic>,
+}
+
+impl SystemText {
+    fn new(text: &str) -> Self {
+        let (tree, errors) = ParsedSystem::read("", text);
+        Self { tree, errors }
+    }
+}
+
 impl File {
-    fn new(is_agent: bool, text: String, open: Option<Open>) -> Self {
+    fn new(kind: Kind, text: String, open: Option<Open>) -> Self {
         let lines = Lines::of(&text);
-        let content = if is_agent {
-            Content::Agent(Box::new(Document::new(text)))
-        } else {
-            Content::Configuration(Box::new(ConfigurationText::new(text)))
+        let content = match kind {
+            Kind::Agent => Content::Agent(Box::new(Document::new(text))),
+            Kind::Configuration => Content::Configuration(Box::new(ConfigurationText::new(text))),
+            Kind::System => Content::System(Box::new(SystemText::new(&text))),
         };
         Self { content, lines, open }
     }
@@ -66,20 +107,28 @@ impl File {
         match &self.content {
             Content::Agent(document) => document.text(),
             Content::Configuration(configuration) => &configuration.text,
+            Content::System(system) => system.tree.text(),
         }
     }
 
     pub(super) fn agent(&self) -> Option<&Document> {
         match &self.content {
             Content::Agent(document) => Some(document),
-            Content::Configuration(_) => None,
+            _ => None,
         }
     }
 
     pub(super) fn configuration(&self) -> Option<&ConfigurationText> {
         match &self.content {
-            Content::Agent(_) => None,
             Content::Configuration(configuration) => Some(configuration),
+            _ => None,
+        }
+    }
+
+    pub(super) fn system(&self) -> Option<&SystemText> {
+        match &self.content {
+            Content::System(system) => Some(system),
+            _ => None,
         }
     }
 
@@ -104,14 +153,19 @@ impl File {
                 text.replace_range(span, replacement);
                 **old = ConfigurationText::new(text);
             }
+            Content::System(old) => {
+                let mut text = old.tree.text().to_owned();
+                text.replace_range(span, replacement);
+                **old = SystemText::new(&text);
+            }
         }
         self.lines = Lines::of(self.text());
     }
 }
 
-/// Whether a file is an agent by its name; what an editor sends otherwise is a configuration.
-pub(super) fn is_agent(path: &Path) -> bool {
-    has_ending(path, "asl")
+/// The path of an agent's configuration, which is relative to the system.
+pub(super) fn member_path(system: &Path, agent: &Agent) -> PathBuf {
+    plain(&folder(system).join(&agent.configuration))
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {
@@ -132,8 +186,8 @@ impl Files {
     }
 
     /// Takes a text from the editor.
-    pub(super) fn open(&mut self, path: &Path, is_agent: bool, text: String, open: Open) {
-        self.files.insert(path.to_owned(), File::new(is_agent, text, Some(open)));
+    pub(super) fn open(&mut self, path: &Path, kind: Kind, text: String, open: Open) {
+        self.files.insert(path.to_owned(), File::new(kind, text, Some(open)));
     }
 
     pub(super) fn close(&mut self, path: &Path) {
@@ -167,20 +221,32 @@ impl Files {
     }
 
     /// Reads a file unless it is known.
-    fn load(&mut self, path: &Path) -> std::io::Result<()> {
+    fn load(&mut self, path: &Path) -> Result<(), ReadError> {
         if !self.files.contains_key(path) {
-            let bytes = std::fs::read(path)?;
-            let text = String::from_utf8_lossy(&bytes).into_owned();
-            self.files.insert(path.to_owned(), File::new(is_agent(path), text, None));
+            let text = read(path)?;
+            self.files.insert(path.to_owned(), File::new(Kind::of(path, ""), text, None));
         }
         Ok(())
+    }
+
+    /// The configurations that a system names, in the order of its agents, which are read if necessary.
+    pub(super) fn members_of(&mut self, system: &Path) -> Vec<(PathBuf, Result<(), ReadError>)> {
+        let text = self.files.get(system).and_then(File::system);
+        let named = text.into_iter().flat_map(|text| text.tree.agents());
+        let paths: Vec<PathBuf> = named.map(|agent| member_path(system, agent)).collect();
+        let mut members = Vec::new();
+        for path in paths {
+            let read = self.load(&path);
+            members.push((path, read));
+        }
+        members
     }
 
     /// The path of a configuration's agent, which is read if necessary; `None` if the configuration has errors.
     pub(super) fn agent_of(
         &mut self,
         configuration: &Path,
-    ) -> Option<(PathBuf, std::io::Result<()>)> {
+    ) -> Option<(PathBuf, Result<(), ReadError>)> {
         let agent = self.input(configuration)?;
         let read = self.load(&agent);
         Some((agent, read))
@@ -207,8 +273,8 @@ impl Files {
         own
     }
 
-    /// The files in an agent's folder that end like configurations.
-    fn in_folder_of(&mut self, agent: &Path) -> Vec<PathBuf> {
+    /// The files in a text's folder that end like configurations.
+    pub(super) fn in_folder_of(&mut self, agent: &Path) -> Vec<PathBuf> {
         let Some(folder) = agent.parent().filter(|folder| folder.is_absolute()) else {
             return Vec::new();
         };

@@ -1,16 +1,21 @@
 //! Diagnostics: those of the command line, for each text that an edit concerns.
 //!
-//! An agent is checked with each configuration that names it. Without one its syntax is checked, and a note says so.
+//! An agent is checked with each configuration that names it. Without one its syntax is checked, and a note says so. An open
+//! system is checked when it or one of its agents changes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use diagnostic::Span;
 use gen_lsp_types::{
     Code, Diagnostic, DiagnosticSeverity, DiagnosticTag, Message, PublishDiagnosticsParams, Uri,
 };
-use translator::{Findings, Severity, findings};
+use translator::syntax::Document;
+use translator::system::compose;
+use translator::{Findings, ParsedConfiguration, Severity, findings, parse_configuration};
 
 use super::files::{File, Files};
+use crate::agent::ReadError;
 
 /// Findings by file.
 pub(super) type Found = BTreeMap<PathBuf, Vec<translator::Diagnostic>>;
@@ -23,29 +28,123 @@ const NOT_READ: &str = "not-read";
 pub(super) fn look(files: &mut Files, changed: &BTreeSet<PathBuf>) -> Found {
     let mut found = Found::new();
     let mut agents: BTreeSet<PathBuf> = BTreeSet::new();
-    for path in changed {
+    let (systems, members) = systems(files, changed);
+    for path in changed.union(&members) {
         match files.get(path) {
             Some(file) if file.agent().is_some() => _ = agents.insert(path.clone()),
-            Some(_) => {
+            Some(file) if file.configuration().is_some() => {
                 let own = configuration_errors(files, path);
                 let refused = !own.is_empty();
                 found.entry(path.clone()).or_default().extend(own);
                 match files.agent_of(path) {
                     Some((agent, Ok(()))) => _ = agents.insert(agent),
-                    Some((agent, Err(error))) if !refused => {
-                        let error = not_read(files, path, &agent, &error);
+                    Some((_, Err(error))) if !refused => {
+                        let error = not_read(files, path, &error);
                         found.entry(path.clone()).or_default().extend(error);
                     }
                     _ => {}
                 }
             }
-            None => {}
+            _ => {}
         }
     }
     for agent in agents {
         look_at_agent(files, &agent, &mut found);
     }
+    for system in systems {
+        let errors = system_errors(files, &system);
+        found.insert(system, errors);
+    }
     found
+}
+
+/// The open systems that a change concerns, and the configurations of those that have changed themselves: whoever opens a
+/// system is shown what is wrong with its agents.
+fn systems(files: &mut Files, changed: &BTreeSet<PathBuf>) -> (Vec<PathBuf>, BTreeSet<PathBuf>) {
+    let is_system = |path: &&Path| files.get(path).is_some_and(|file| file.system().is_some());
+    let open: Vec<PathBuf> = files.opened().filter(is_system).map(Path::to_owned).collect();
+    let (mut systems, mut members) = (Vec::new(), BTreeSet::new());
+    for system in open {
+        let own: BTreeSet<PathBuf> =
+            files.members_of(&system).into_iter().map(|(path, _)| path).collect();
+        let agents: Vec<PathBuf> =
+            own.iter().filter_map(|path| Some(files.agent_of(path)?.0)).collect();
+        if changed.contains(&system) {
+            members.extend(own);
+        } else if !own.iter().chain(&agents).any(|path| changed.contains(path)) {
+            continue;
+        }
+        systems.push(system);
+    }
+    (systems, members)
+}
+
+/// The errors of a system, and at its entries that their files have some.
+fn system_errors(files: &mut Files, path: &Path) -> Vec<translator::Diagnostic> {
+    let text = files.get(path).and_then(File::system);
+    if let Some(text) = text.filter(|text| !text.errors.is_empty()) {
+        return text.errors.clone();
+    }
+    let members = files.members_of(path);
+    let read: Vec<_> = members.into_iter().map(|(path, read)| member(files, &path, read)).collect();
+    let Some(text) = files.get(path).and_then(File::system) else { return Vec::new() };
+    let (mut found, mut agents) = (Vec::new(), Vec::new());
+    for (entry, read) in text.tree.agents().iter().zip(read) {
+        match read {
+            Ok(agent) => agents.push(agent),
+            Err(error) => found.push(at(error, entry.place.clone())),
+        }
+    }
+    if found.is_empty()
+        && let Err(refused) = compose(&text.tree, agents)
+    {
+        return refused.diagnostics().to_vec();
+    }
+    found
+}
+
+/// A configuration of a system, and the text of its agent.
+///
+/// # Errors
+/// The first error in these files, without its place there.
+fn member(
+    files: &mut Files,
+    path: &Path,
+    read: Result<(), ReadError>,
+) -> Result<(ParsedConfiguration, String), translator::Diagnostic> {
+    read.map_err(|error| cannot_read(&error))?;
+    let text = files.get(path).map(File::text).unwrap_or_default();
+    let configuration = parse_configuration("", text)
+        .map_err(|refused| has_errors(path, refused.diagnostics().first()))?;
+    let Some((agent, read)) = files.agent_of(path) else {
+        // The configuration of this name was read as something else.
+        return Err(has_errors(path, None));
+    };
+    read.map_err(|error| cannot_read(&error))?;
+    let file = files.get(&agent);
+    let text = file.map(File::text).unwrap_or_default().to_owned();
+    let found = match file.and_then(File::agent) {
+        Some(document) => findings(&configuration, document),
+        None => findings(&configuration, &Document::new(text.clone())),
+    };
+    let first = |found: &[translator::Diagnostic]| {
+        found.iter().find(|found| found.severity == Severity::Error).cloned()
+    };
+    if let Some(error) = first(&found.configuration) {
+        return Err(has_errors(path, Some(&error)));
+    }
+    match first(&found.agent) {
+        Some(error) => Err(has_errors(&agent, Some(&error))),
+        None => Ok((configuration, text)),
+    }
+}
+
+/// Says that a file of a system has errors; the first has its place in that file.
+fn has_errors(path: &Path, first: Option<&translator::Diagnostic>) -> translator::Diagnostic {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let (message, code) = first
+        .map_or(("it is no configuration", NOT_READ), |first| (first.message.as_str(), first.code));
+    translator::Diagnostic::error(format!("`{name}` has errors: {message}"), 0..0).code(code)
 }
 
 /// The findings in an agent and its configurations.
@@ -98,16 +197,19 @@ fn no_configuration(agent: &Path) -> translator::Diagnostic {
 }
 
 /// Says that the agent of a configuration cannot be read.
-fn not_read(
-    files: &Files,
-    path: &Path,
-    agent: &Path,
-    error: &std::io::Error,
-) -> Option<translator::Diagnostic> {
+fn not_read(files: &Files, path: &Path, error: &ReadError) -> Option<translator::Diagnostic> {
     let settings = &files.get(path)?.configuration()?.tree.settings;
     let place = settings.places.get("input").cloned().unwrap_or_default();
-    let message = format!("cannot read {}: {error}", agent.display());
-    Some(translator::Diagnostic::error(message, place).code(NOT_READ))
+    Some(at(cannot_read(error), place))
+}
+
+fn cannot_read(error: &ReadError) -> translator::Diagnostic {
+    translator::Diagnostic::error(error.to_string(), 0..0).code(NOT_READ)
+}
+
+fn at(mut found: translator::Diagnostic, place: Span) -> translator::Diagnostic {
+    found.span = place;
+    found
 }
 
 /// The diagnostics of a text for the editor.

@@ -4,6 +4,7 @@ use gen_lsp_types::{DocumentFormattingParams, TextEdit};
 use serde_json::Value;
 
 use super::answers::{Answer, parameters, result};
+use super::files::Content;
 use super::server::Server;
 
 /// The difference between a text and its formatted form, as one edit. A text with errors, or one that is formatted
@@ -11,10 +12,13 @@ use super::server::Server;
 pub(super) fn format(server: &mut Server, params: Value) -> Answer {
     let params: DocumentFormattingParams = parameters(params)?;
     let (_, file) = server.file(&params.text_document.uri.0)?;
-    let Some(text) = file.agent().map(translator::syntax::Document::text) else {
-        return result(Value::Null);
+    let text = file.text();
+    let formatted = match &file.content {
+        Content::Agent(_) => translator::format("", text),
+        Content::System(_) => translator::format_system("", text),
+        Content::Configuration(_) => return result(Value::Null),
     };
-    let Ok(mut formatted) = translator::format("", text) else { return result(Value::Null) };
+    let Ok(mut formatted) = formatted else { return result(Value::Null) };
     if text.contains("\r\n") {
         formatted = formatted.replace("\r\n", "\n").replace('\n', "\r\n");
     }

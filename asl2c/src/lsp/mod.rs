@@ -1,4 +1,4 @@
-//! The language server: what editors ask about agents and their configurations, over standard input and output.
+//! The language server: what editors ask about agents, their configurations and systems, over standard input and output.
 //!
 //! Everything that the answers say comes from the `translator`. Here are the protocol, the open texts, and the
 //! configuration that belongs to an agent. The server is single-threaded but for the thread that reads: it handles

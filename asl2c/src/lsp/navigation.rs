@@ -7,9 +7,10 @@ use gen_lsp_types::{
 use serde_json::Value;
 use translator::names::{Meaning, Usage, describe};
 use translator::syntax::ast::{Operator, TriggerKind};
+use translator::system::Agent;
 
 use super::answers::{Answer, parameters, result};
-use super::files::{File, Files};
+use super::files::{File, Files, member_path};
 use super::places::{Spot, places, related};
 use super::server::{Server, name_at};
 
@@ -36,10 +37,20 @@ pub(super) fn hover(server: &mut Server, params: Value) -> Answer {
     result(hover)
 }
 
-/// Where a name gets its meaning: the plans of a goal or test goal in a body, otherwise the declaration.
+/// Where a name gets its meaning: the plans of a goal or test goal in a body, otherwise the declaration; of an agent of a
+/// system its configuration.
 pub(super) fn definition(server: &mut Server, params: Value) -> Answer {
     let params: DefinitionParams = parameters(params)?;
     let at = params.text_document_position_params;
+    let (path, file, offset) = server.cursor(&at)?;
+    if let Some(system) = file.system() {
+        let is_here = |agent: &&Agent| (agent.peer.span.start..=agent.place.end).contains(&offset);
+        let agent = system.tree.agents().iter().find(is_here);
+        return result(agent.map(|agent| Location {
+            uri: Uri(server.files.uri(&member_path(&path, agent))),
+            range: file.place(&(0..0)),
+        }));
+    }
     let (usage, spots) = spots(server, &at)?;
     let wanted = match usage {
         Some(Usage::Goal) => Some(Usage::Trigger(Operator::Add, TriggerKind::Achieve)),

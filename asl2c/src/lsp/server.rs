@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use translator::names::{Found, at_agent, at_configuration};
 
 use super::answers::{Refusal, parameters};
-use super::files::{File, Files, Open, is_agent};
+use super::files::{File, Files, Kind, Open};
 use super::token_lists::SentTokens;
 use super::{findings, uri};
 
@@ -34,7 +34,8 @@ impl Server {
     pub(super) fn initialize(&mut self, params: &Value) {
         const WATCHING: &str = "/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration";
         if params.pointer(WATCHING) == Some(&Value::Bool(true)) {
-            let watchers = ["**/*.asl", "**/*.conf"].map(|glob| json!({ "globPattern": glob }));
+            let watchers =
+                ["**/*.asl", "**/*.conf", "**/*.system"].map(|glob| json!({ "globPattern": glob }));
             let registration = json!({ "registrations": [{
                 "id": "files",
                 "method": "workspace/didChangeWatchedFiles",
@@ -98,9 +99,9 @@ impl Server {
         let path = path_of(&uri.0);
         // Its configuration may be new.
         self.files.forget();
-        let is_agent = is_agent(&path) || language_id.to_string() == "agentspeak";
-        self.files.open(&path, is_agent, text, Open { uri: uri.0, version });
-        if !is_agent {
+        let kind = Kind::of(&path, &language_id.to_string());
+        self.files.open(&path, kind, text, Open { uri: uri.0, version });
+        if kind == Kind::Configuration {
             // It may name another agent than on disk.
             self.look_at_all();
         }

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use translator::configuration::Configuration;
 use translator::syntax::Document;
 use translator::syntax::ast::{Operator, Trigger, TriggerKind};
+use translator::system::ParsedSystem;
 
 use diagnostic::Span;
 
@@ -12,7 +13,7 @@ use super::answers::{Answer, parameters, result};
 use super::files::{Content, File};
 use super::server::Server;
 
-/// Beliefs, goal and plans of an agent; all declarations of a configuration.
+/// Beliefs, goal and plans of an agent; all declarations of a configuration; agents and properties of a system.
 pub(super) fn symbols(server: &mut Server, params: Value) -> Answer {
     let params: DocumentSymbolParams = parameters(params)?;
     let (_, file) = server.file(&params.text_document.uri.0)?;
@@ -23,6 +24,7 @@ pub(super) fn symbols(server: &mut Server, params: Value) -> Answer {
     match &file.content {
         Content::Agent(document) => of_agent(document, &mut add),
         Content::Configuration(configuration) => of_configuration(&configuration.tree, &mut add),
+        Content::System(system) => of_system(&system.tree, &mut add),
     }
     result(symbols)
 }
@@ -73,6 +75,19 @@ fn of_configuration(
         add(&predicate.name.text, "belief or goal", SymbolKind::Property, &whole, own);
     }
     for property in &configuration.properties {
+        let own = &property.name.span;
+        let whole = around(&property.span, own);
+        add(&property.name.text, "property", SymbolKind::Constant, &whole, own);
+    }
+}
+
+fn of_system(system: &ParsedSystem, add: &mut impl FnMut(&str, &str, SymbolKind, &Span, &Span)) {
+    for agent in system.agents() {
+        let own = &agent.peer.span;
+        let whole = around(&agent.place, own);
+        add(&agent.peer.text, &agent.configuration, SymbolKind::Object, &whole, own);
+    }
+    for property in system.properties() {
         let own = &property.name.span;
         let whole = around(&property.span, own);
         add(&property.name.text, "property", SymbolKind::Constant, &whole, own);

@@ -5,3 +5,4 @@ mod hostile;
 mod same;
 mod session;
 mod speed;
+mod systems;

@@ -12,9 +12,9 @@ use super::client::{Client, read};
 type Finding = (String, String, String, String, [u64; 4]);
 
 /// Findings of the command line.
-fn printed(folder: &Path) -> BTreeSet<Finding> {
+fn printed(folder: &Path, arguments: &[&str]) -> BTreeSet<Finding> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
-    command.current_dir(folder).args(["a.conf", "--message-format", "json", "-o", "out"]);
+    command.current_dir(folder).args(arguments).args(["--message-format", "json"]);
     let output = command.output().unwrap();
     let lines = String::from_utf8(output.stderr).unwrap();
     let finding = |line: &str| {
@@ -69,7 +69,7 @@ fn compare(client: &mut Client, version: &mut i32, configuration: &str, agent: &
     // Before the agent changed the configuration may have had other findings.
     let in_configuration = client.last_diagnostics("a.conf", *version);
     found.extend(shown("a.conf", configuration, &in_configuration));
-    let expected = printed(&client.path(""));
+    let expected = printed(&client.path(""), &["a.conf", "-o", "out"]);
     if translator::parse_configuration("", configuration).is_err() {
         // Here the command line does not read the agent; the editor also shows errors of its syntax.
         found.retain(|finding| finding.0 == "a.conf");
@@ -192,4 +192,65 @@ fn mistakes_in_configurations_are_shown_as_they_are_printed() {
         compare(&mut client, &mut version, &configuration, agent);
         compare(&mut client, &mut version, &configuration, "+!g <- fly(1).");
     }
+}
+
+#[test]
+fn mistakes_in_systems_are_shown_as_they_are_printed() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../translator/agents/systems/");
+    let gallery = |name: &str| read(format!("{folder}{name}").as_ref());
+    let traveller = gallery("traveller.conf");
+    let others = traveller.replace("keeper, left, right }", "left, keeper, right }");
+    let raised = traveller.replace("types {", "triggerables { +!travel; };\ntypes {");
+    let mut client = Client::with_files(&[
+        ("keeper.conf", &gallery("keeper.conf")),
+        ("keeper.asl", &gallery("keeper.asl")),
+        ("traveller.conf", &traveller),
+        ("traveller.asl", &gallery("traveller.asl")),
+        ("others.conf", &others),
+        ("raised.conf", &raised),
+    ]);
+    client.open("a.system", "");
+    let agents = "agents { keeper: keeper.conf; left: traveller.conf; right: raised.conf; };";
+    let mut version = 1;
+    let mut compare = |text: &str| {
+        version += 1;
+        std::fs::write(client.path("a.system"), text).unwrap();
+        client.replace("a.system", version, text);
+        let found = client.diagnostics("a.system", Some(version));
+        let expected = printed(&client.path(""), &["verify", "--model", "a.system"]);
+        assert_eq!(shown("a.system", text, &found), expected, "{text}");
+        found.len()
+    };
+    for text in [
+        "never_together(left.pass, right.pass)",
+        "within(3, right.+!travel, keeper.send_achieve_enter)",
+    ] {
+        assert_eq!(compare(&format!("{agents} properties {{ p: {text}; }};")), 0);
+    }
+    for text in [
+        "never(left.pass)",
+        "never_together(left.pass, right.passes)",
+        "never_together(left.pass, left.hold)",
+        "never_together(left.pass, middle.pass)",
+        "within(3, left.+!travel, right.pass)",
+        "within(3, keeper.send_tell_waiting, right.pass)",
+        "within(0, left.pass, right.pass)",
+    ] {
+        assert_eq!(
+            compare(&format!("{agents} properties {{ /* \u{1f600} */ p: {text}; }};")),
+            1,
+            "{text}"
+        );
+    }
+    for text in [
+        "",
+        "agents { keeper keeper.conf; };\nagent { };",
+        "agents { keeper: keeper.conf; };",
+        "agents { keeper: keeper.conf; left: traveller.conf; middle: traveller.conf; };",
+        "agents { keeper: keeper.conf; left: traveller.conf; right: others.conf; };",
+        "agents { keeper: keeper.conf; left: traveller.conf; left: traveller.conf; };\n/* open",
+    ] {
+        assert!(compare(text) > 0, "{text}");
+    }
+    assert!(compare(&format!("{agents} channels {{ losses = some; size = 3; }};")) > 1);
 }

@@ -258,19 +258,20 @@ fn completion_offers_what_fits() {
 #[test]
 fn formatting_is_that_of_the_command() {
     let mut client = Client::with_files(&[]);
-    for (text, expected) in [
-        ("!go .\n// \u{e9}\n+!go<-on ;   off.\n", "!go.\n// \u{e9}\n+!go <- on; off.\n"),
-        ("!go .\r\n+!go<-on.\r\n", "!go.\r\n+!go <- on.\r\n"),
-        ("!go.\n+!go <- say(\"\u{e8}\") .\n", "!go.\n+!go <- say(\"\u{e8}\").\n"),
+    for (name, text, expected) in [
+        ("a.asl", "!go .\n// \u{e9}\n+!go<-on ;   off.\n", "!go.\n// \u{e9}\n+!go <- on; off.\n"),
+        ("a.asl", "!go .\r\n+!go<-on.\r\n", "!go.\r\n+!go <- on.\r\n"),
+        ("a.asl", "!go.\n+!go <- say(\"\u{e8}\") .\n", "!go.\n+!go <- say(\"\u{e8}\").\n"),
+        ("a.system", "agents{a:b.conf;}", "agents { a: b.conf; }\n"),
     ] {
-        client.open("a.asl", text);
-        let uri = client.uri("a.asl");
+        client.open(name, text);
+        let uri = client.uri(name);
         let params = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 8, "insertSpaces": false } });
         let edits = client.request("textDocument/formatting", params.clone()).unwrap();
         assert_eq!(edited(text, &edits), expected);
-        client.open("a.asl", expected);
+        client.open(name, expected);
         assert_eq!(client.request("textDocument/formatting", params.clone()), Ok(json!([])));
-        client.open("a.asl", "+!go <- ");
+        client.open(name, "+!go <- ");
         assert_eq!(client.request("textDocument/formatting", params), Ok(Value::Null));
     }
 }
