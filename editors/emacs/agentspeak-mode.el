@@ -1,4 +1,4 @@
-;;; agentspeak-mode.el --- AgentSpeak agents and their configurations -*- lexical-binding: t; -*-
+;;; agentspeak-mode.el --- AgentSpeak agents, their configurations and systems -*- lexical-binding: t; -*-
 
 ;; Version: 0.1.0
 ;; Package-Requires: ((emacs "28.1"))
@@ -7,8 +7,8 @@
 
 ;;; Commentary:
 
-;; Colours and comments for agents (.asl) and for those .conf files that are their configurations.  With eglot,
-;; which is part of Emacs 29, `M-x eglot' starts the language server `asl2c lsp'.
+;; Colours and comments for agents (.asl), for those .conf files that are their configurations, and for systems of
+;; agents (.system).  With eglot, which is part of Emacs 29, `M-x eglot' starts the language server `asl2c lsp'.
 
 ;;; Code:
 
@@ -63,6 +63,16 @@
     ("\\_<\\([a-zA-Z_][a-zA-Z0-9_]*\\)\\s-*[(:]" 1 font-lock-function-name-face))
   "Colours of configurations.")
 
+(defconst agentspeak-system-font-lock-keywords
+  '(("\\_<\\(agents\\|channels\\|properties\\)\\s-*{" 1 font-lock-keyword-face)
+    ("\\_<\\(capacity\\|losses\\|delay\\)\\s-*=" 1 font-lock-variable-name-face)
+    ("=\\s-*\\(any\\)\\_>" 1 font-lock-constant-face)
+    ("\\_<\\(?:never_together\\|within\\)\\_>" . font-lock-builtin-face)
+    ("\\.[+-]!?\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)" 1 font-lock-type-face)
+    ("\\_<[a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\.\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)\\s-*[,)]" 1 font-lock-function-name-face)
+    ("\\_<\\([a-zA-Z_]\\(?:\\sw\\|\\s_\\)*\\)\\s-*\\(?:\\[[^]]*\\]\\)?\\s-*:" 1 font-lock-variable-name-face))
+  "Colours of systems.")
+
 ;;;###autoload
 (define-derived-mode agentspeak-mode prog-mode "AgentSpeak"
   "Major mode for AgentSpeak agents."
@@ -82,6 +92,16 @@
               tab-width 2
               font-lock-defaults '(agentspeak-conf-font-lock-keywords)))
 
+;;;###autoload
+(define-derived-mode agentspeak-system-mode prog-mode "AgentSpeak-System"
+  "Major mode for systems of AgentSpeak agents."
+  :syntax-table agentspeak-mode-syntax-table
+  (setq-local comment-start "// "
+              comment-end ""
+              indent-tabs-mode nil
+              tab-width 2
+              font-lock-defaults '(agentspeak-system-font-lock-keywords)))
+
 (defun agentspeak-configuration-p ()
   "Whether this buffer is a configuration: its section `settings' names an AgentSpeak file."
   (and buffer-file-name
@@ -93,12 +113,13 @@
 ;;;###autoload
 (progn
   (add-to-list 'auto-mode-alist '("\\.asl\\'" . agentspeak-mode))
+  (add-to-list 'auto-mode-alist '("\\.system\\'" . agentspeak-system-mode))
   (add-to-list 'magic-mode-alist '(agentspeak-configuration-p . agentspeak-conf-mode)))
 
 (defvar eglot-server-programs)
 (with-eval-after-load 'eglot
   (add-to-list 'eglot-server-programs
-               `((agentspeak-mode agentspeak-conf-mode)
+               `((agentspeak-mode agentspeak-conf-mode agentspeak-system-mode)
                  . ,(lambda (&rest _) (list agentspeak-asl2c "lsp")))))
 
 (provide 'agentspeak-mode)

@@ -8,6 +8,7 @@ const { isConfiguration } = require("./detection");
 
 const AGENT = "agentspeak";
 const CONFIGURATION = "agentspeak-configuration";
+const SYSTEM = "agentspeak-system";
 
 let client;
 
@@ -21,7 +22,7 @@ async function recognise(document) {
 async function start() {
   const command = workspace.getConfiguration("asl2c").get("path") || "asl2c";
   const server = { command, args: ["lsp"], transport: TransportKind.stdio };
-  const documentSelector = [{ language: AGENT }, { language: CONFIGURATION }];
+  const documentSelector = [AGENT, CONFIGURATION, SYSTEM].map((language) => ({ language }));
   client = new LanguageClient("asl2c", "asl2c", server, { documentSelector });
   try {
     await client.start();

@@ -1,5 +1,6 @@
-" AgentSpeak agents, and those .conf files that are their configurations.
+" AgentSpeak agents, systems of them, and those .conf files that are their configurations.
 autocmd BufNewFile,BufRead *.asl setfiletype agentspeak
+autocmd BufNewFile,BufRead *.system setfiletype agentspeaksystem
 autocmd BufNewFile,BufRead *.conf call s:Configuration()
 
 " `.conf` alone says nothing: the section `settings` names an AgentSpeak file.

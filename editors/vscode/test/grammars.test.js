@@ -13,6 +13,7 @@ const { isConfiguration } = require("../detection");
 const ROOT = path.join(__dirname, "../../..");
 const AGENT = "source.agentspeak";
 const CONFIGURATION = "source.agentspeak-configuration";
+const SYSTEM = "source.agentspeak-system";
 
 async function grammars() {
   const wasm = fs.readFileSync(require.resolve("vscode-oniguruma/release/onig.wasm"));
@@ -27,8 +28,8 @@ async function grammars() {
       return parseRawGrammar(fs.readFileSync(file, "utf8"), file);
     },
   });
-  const load = (scope) => registry.loadGrammar(scope);
-  return { [AGENT]: await load(AGENT), [CONFIGURATION]: await load(CONFIGURATION) };
+  const load = async (scope) => [scope, await registry.loadGrammar(scope)];
+  return Object.fromEntries(await Promise.all([AGENT, CONFIGURATION, SYSTEM].map(load)));
 }
 
 const loaded = grammars();
@@ -63,9 +64,9 @@ function files(folder, ending) {
   return names.map((name) => [name, fs.readFileSync(path.join(ROOT, folder, name), "utf8")]);
 }
 
-/** The examples of the language guide in a language. */
-function examples(language) {
-  const guide = fs.readFileSync(path.join(ROOT, "docs/agentspeak.md"), "utf8");
+/** The examples of a guide in a language. */
+function examples(language, of = "agentspeak") {
+  const guide = fs.readFileSync(path.join(ROOT, `docs/${of}.md`), "utf8");
   const blocks = [...guide.matchAll(/^```(\w+)\n([^]*?)^```/gm)].filter((block) => block[1] === language);
   assert.ok(blocks.length > 0, language);
   return blocks.map((block, index) => [`${language} ${index + 1} of the guide`, block[2]]);
@@ -89,6 +90,13 @@ test("every configuration is coloured, and recognised", async () => {
   }
   for (const other of ["", "[settings]\ninput = a.asl\n", "server { listen 80; }", "// settings { input = a.asl; }"]) {
     assert.ok(!isConfiguration(other), other);
+  }
+});
+
+test("every system is coloured", async () => {
+  const all = [...files("translator/agents/systems", ".system"), ...examples("system"), ...examples("system", "airlock")];
+  for (const [name, text] of all) {
+    await check(SYSTEM, name, text);
   }
 });
 
@@ -159,6 +167,32 @@ test("peers and messages have their scopes", async () => {
   assert.equal(annotation.scope, "keyword.other.annotation.agentspeak-configuration");
 });
 
+test("the names of a system have their scopes", async () => {
+  const text = `agents { first: ../two words.conf; /* note */ second: a.conf; };
+channels { capacity = 2; losses = any; };
+properties { p [R-1]: within(3, first.+!go, second.hover); };`;
+  const found = await tokens(SYSTEM, text);
+  const scopes = (name) =>
+    found.filter((token) => token.text === name).map((token) => token.scope.replace(".agentspeak-system", ""));
+  const expected = {
+    agents: ["keyword.other.section"],
+    first: Array(2).fill("variable.other.agent"),
+    "../two words.conf": ["string.unquoted"],
+    capacity: ["support.type.property-name"],
+    2: ["constant.numeric"],
+    any: ["constant.language.any"],
+    p: ["entity.name.type.property"],
+    "[R-1]": ["string.unquoted.requirement"],
+    within: ["keyword.control.formula"],
+    "+!": ["keyword.operator.trigger"],
+    go: ["entity.name.function"],
+    hover: ["entity.name.function"],
+  };
+  for (const [name, list] of Object.entries(expected)) {
+    assert.deepEqual(scopes(name), list, name);
+  }
+});
+
 test("what is no AgentSpeak is marked", async () => {
   for (const [scope, text] of [
     [AGENT, "+!go <- ~on."],
@@ -167,6 +201,9 @@ test("what is no AgentSpeak is marked", async () => {
     [CONFIGURATION, "settings { colour = red; };"],
     [CONFIGURATION, "sections { };"],
     [CONFIGURATION, "triggerables { ?go; };"],
+    [SYSTEM, "settings { };"],
+    [SYSTEM, "channels { size = 2; };"],
+    [SYSTEM, "properties { p: within(1, a.?go, b.x); };"],
   ]) {
     const found = await tokens(scope, text);
     assert.ok(found.some((token) => token.scope.startsWith("invalid")), text);

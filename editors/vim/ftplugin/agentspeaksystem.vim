@@ -1,0 +1,2 @@
+" Comments and indentation of systems, which are those of agents.
+runtime! ftplugin/agentspeak.vim
