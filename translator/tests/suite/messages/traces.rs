@@ -200,7 +200,9 @@ fn script(talker: &Talker, sequences: &[Vec<Command>], aborted: &str) -> (String
             known.len() - 1
         });
         _ = write!(read, "{place}");
-        values.iter().for_each(|value| _ = write!(read, " {value}"));
+        for value in values {
+            _ = write!(read, " {value}");
+        }
         read.push('\n');
     }
     let mut text = format!(
@@ -209,7 +211,7 @@ fn script(talker: &Talker, sequences: &[Vec<Command>], aborted: &str) -> (String
          static void show(int time) {{ clock_ms = time; }}\n\
          static void begin(peer_t me) {{ init(me); puts(\"init\"); }}\n\
          static int number(void) {{ int value = 0; return (scanf(\"%d\", &value) == 1) ? value : -1; }}\n\
-         int main(void)\n{{\nint a[4] = {{0}};\n(void)a;\nfor (;;) {{ switch (number()) {{\n"
+         int main(void)\n{{\nint a[4] = {{0}};\n(void)a;\n(void)answer;\nfor (;;) {{ switch (number()) {{\n"
     );
     for (number, (call, types, is_answered)) in known.iter().enumerate() {
         _ = write!(text, "case {number}: ");
