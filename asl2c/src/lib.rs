@@ -48,7 +48,7 @@ pub use headers::HeaderError;
 pub use measure::measure;
 pub use prove::{
     Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,
-    Watch, prove, validate, validate_watched, violates,
+    Watch, prove, prove_beginning_with, validate, validate_watched, violates,
 };
 pub use run::{NetworkConditions, Replay, Runs, Session, SystemSession, repeat, replay};
 pub use spin::{Counterexample, SPIN, SpinError, Verdict};

@@ -166,6 +166,8 @@ pub struct Evidence {
     pub run_time_errors: Vec<PropertyEvidence>,
     /// Conditions of the invariant that proves the properties.
     pub invariant: Vec<String>,
+    /// Number of conditions among which it was searched.
+    pub candidates: usize,
     /// Whether the C does what the agent's text says.
     pub validation: ValidationEvidence,
     /// Deviations from MISRA C:2012.

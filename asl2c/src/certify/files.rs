@@ -13,6 +13,8 @@ use crate::written::{self, Comment, New, is_own, marked, regular};
 /// The evidence as JSON.
 const JSON: &str = "evidence.json";
 const PAGE: &str = "index.html";
+/// The conditions of the invariant, one a line, with which another proof can begin.
+const INVARIANT: &str = "invariant.txt";
 /// The program of the tests.
 const PROGRAM: &str = "tests.c";
 /// Checksums of all other files, in the format of `sha256sum`. It is known again by its last line, and the others by it.
@@ -20,16 +22,18 @@ const CHECKSUMS: &str = "SHA256SUMS";
 /// What to do about a file that is in the way.
 const HELP: &str = "name another folder by `-o DIR`";
 
-/// Writes the files, the evidence as JSON and as a page, and the checksums of all; all or none. What an earlier
-/// certification left in the folder is replaced or removed, if nobody has changed it since and it is none of the `inputs`.
-///
-/// # Errors
-/// If the folder holds something else, or a file cannot be written.
-pub(crate) fn write(
-    certified: &Certified,
-    folder: &Path,
-    inputs: &[PathBuf],
-) -> Result<(), CertifyError> {
+impl Certified {
+    /// Writes the files, the evidence as JSON and as a page, and the checksums of all; all or none. What an earlier
+    /// certification left in the folder is replaced or removed, if nobody has changed it since and it is none of the `inputs`.
+    ///
+    /// # Errors
+    /// If the folder holds something else, or a file cannot be written.
+    pub fn write(&self, folder: &Path, inputs: &[PathBuf]) -> Result<(), CertifyError> {
+        write(self, folder, inputs)
+    }
+}
+
+fn write(certified: &Certified, folder: &Path, inputs: &[PathBuf]) -> Result<(), CertifyError> {
     let failed = |what: &str, path: &Path| {
         let what = format!("cannot {what} {}", path.display());
         move |source: io::Error| CertifyError::Io { what, source }
@@ -40,6 +44,8 @@ pub(crate) fn write(
     let json = json.map_err(failed("make", Path::new(JSON)))?;
     files.push((JSON.to_owned(), format!("{json}\n")));
     files.push((PAGE.to_owned(), page(certified)));
+    let conditions = certified.evidence.invariant.iter().map(|condition| format!("{condition}\n"));
+    files.push((INVARIANT.to_owned(), conditions.collect()));
     files.sort();
     let mut checksums = String::new();
     for (name, text) in &files {
@@ -100,7 +106,7 @@ impl Earlier {
 fn is_of_evidence(name: &str) -> bool {
     let is_number = |text: &str| text.len() >= 3 && text.bytes().all(|byte| byte.is_ascii_digit());
     let Some((folder, file)) = name.split_once('/') else {
-        return [JSON, PAGE].contains(&name);
+        return [JSON, PAGE, INVARIANT].contains(&name);
     };
     let is_test = |file: &str| {
         let number = file.strip_prefix("test_").and_then(|file| file.strip_suffix(".transcript"));
@@ -161,6 +167,7 @@ mod tests {
         for name in [
             "evidence.json",
             "index.html",
+            "invariant.txt",
             "agent/sub/a.asl",
             "c/a.h",
             "tests/tests.c",

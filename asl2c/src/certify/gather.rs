@@ -24,8 +24,8 @@ use crate::headers::HeaderError;
 use crate::measure::measure;
 use crate::output::known_again;
 use crate::prove::{
-    Cbmc, DeadBranches, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated,
-    dead_branches, prove, search, validate,
+    Cbmc, DeadBranches, Found, Limits as SearchLimits, Proof, ProveError, Searched, Validated,
+    dead_branches, prove_beginning_with, search, validate,
 };
 use crate::run::Session;
 use crate::tool::ToolError;
@@ -144,7 +144,8 @@ pub(super) const TESTS: &str = "tests";
 pub(super) const OWN_TESTS: &str = "tests/own";
 pub(super) const COUNTEREXAMPLES: &str = "counterexamples";
 
-/// Gathers the evidence for an agent, with tests of one's own; `tell` hears what is being done.
+/// Gathers the evidence for an agent, with tests of one's own; `tell` hears what is being done. The proof of the properties
+/// begins with the conditions of an invariant that are known from earlier evidence, if there are any.
 ///
 /// # Errors
 /// If a tool is missing or fails, or the agent cannot be translated or proved.
@@ -153,6 +154,7 @@ pub fn certify(
     own_tests: &[OwnTest],
     cbmc: &Cbmc,
     limits: Limits,
+    known: &[String],
     tell: &mut dyn FnMut(&str),
 ) -> Result<Certified, CertifyError> {
     let Agent { configuration, text, .. } = agent;
@@ -173,8 +175,8 @@ pub fn certify(
     tell("makes tests and executes them on the C")?;
     let coverage = cover(agent, own_tests)?;
     tell("proves the properties")?;
-    let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
-        proved(agent, obligations, cbmc, limits)?;
+    let Proved { properties, run_time_errors, invariant, candidates, mut files, c: proved_c, dead } =
+        proved(agent, obligations, cbmc, limits, known)?;
     check_not_contradicted(&properties, &coverage.tests)?;
     tell("compares the C with the agent's text")?;
     let validation = validation(agent, cbmc, limits)?;
@@ -205,6 +207,7 @@ pub fn certify(
         properties,
         run_time_errors,
         invariant,
+        candidates,
         validation,
         deviations,
         bounds,
@@ -257,6 +260,7 @@ struct Proved {
     properties: Vec<PropertyEvidence>,
     run_time_errors: Vec<PropertyEvidence>,
     invariant: Vec<String>,
+    candidates: usize,
     /// The counterexamples.
     files: Vec<(String, String)>,
     /// The C that was proved, and its branches that nothing takes.
@@ -269,10 +273,11 @@ fn proved(
     obligations: Obligations,
     cbmc: &Cbmc,
     limits: Limits,
+    known: &[String],
 ) -> Result<Proved, CertifyError> {
     let Agent { configuration, text, .. } = agent;
     let folder = temporary_folder()?;
-    let proof = prove(&obligations, cbmc, folder.path(), &Plan::ALL)?;
+    let proof = prove_beginning_with(known, &obligations, cbmc, folder.path())?;
     let dead = dead_branches(&obligations, cbmc, folder.path())?;
     let alarms = alarms(folder.path())?;
     let mut found = Vec::new();
@@ -314,7 +319,8 @@ fn proved(
     });
     let run_time_errors = run_time_errors.chain(alarms).collect();
     let c = obligations.files.into_iter().next().unwrap_or_default().text;
-    Ok(Proved { properties, run_time_errors, invariant: proof.invariant, files, c, dead })
+    let Proof { invariant, candidates, .. } = proof;
+    Ok(Proved { properties, run_time_errors, invariant, candidates, files, c, dead })
 }
 
 /// The verdict of something unproved; its counterexample becomes a file.

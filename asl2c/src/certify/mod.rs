@@ -13,7 +13,7 @@ pub use self::evidence::{
     Bounds, Evidence, PlanEvidence, PropertyEvidence, Requirement, Status, TestEvidence, Tool,
     ValidationEvidence, Verdict,
 };
-pub(crate) use self::files::{check_folder, write};
+pub(crate) use self::files::check_folder;
 pub use self::gather::{Certified, CertifyError, Limits, certify};
 pub use self::misra::Deviation;
 pub use self::reach::{Reach, Reached};

@@ -234,6 +234,10 @@ pub(super) struct Prove {
     /// The CBMC to use [default: that on the path]
     #[arg(long, value_name = "PATH")]
     pub(super) cbmc: Option<PathBuf>,
+    /// Begin with the conditions in this file, one a line, in place of searching all: `invariant.txt` of earlier evidence.
+    /// Each is proved again, and if they do not prove everything, all are searched
+    #[arg(long, value_name = "FILE")]
+    pub(super) invariant: Option<PathBuf>,
     /// Maximum length of counterexamples, in events, beliefs and steps
     #[arg(long, value_name = "TRANSITIONS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(super) length: u32,
@@ -302,6 +306,10 @@ pub(super) struct Certify {
     /// The CBMC to use [default: that on the path]
     #[arg(long, value_name = "PATH")]
     pub(super) cbmc: Option<PathBuf>,
+    /// Begin with the conditions in this file, one a line, in place of searching all: `invariant.txt` of earlier evidence.
+    /// Each is proved again, and if they do not prove everything, all are searched
+    #[arg(long, value_name = "FILE")]
+    pub(super) invariant: Option<PathBuf>,
     /// Maximum length of counterexamples, in events, beliefs and steps
     #[arg(long, value_name = "TRANSITIONS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(super) length: u32,

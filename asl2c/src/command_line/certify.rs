@@ -6,11 +6,10 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use super::arguments::Certify;
+use super::prove::known_conditions;
 use super::{CommandError, NOT_CHECKED, complain_of, print, stop};
 use crate::agent::{Agent, read};
-use crate::certify::{
-    CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder, write,
-};
+use crate::certify::{CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder};
 use crate::coverage::OwnTest;
 use crate::current::check_current;
 use crate::prove::Cbmc;
@@ -26,14 +25,15 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
     check_folder(&asked.output, &inputs)?;
     check_current(&agent, &[], agent.folder(), None)?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
+    let known = known_conditions(asked.invariant.as_deref())?;
     let limits = Limits { time: Duration::from_secs(asked.time), transitions: asked.length };
     let mut tell = |doing: &str| {
         if !asked.quiet {
             complain_of(&format!("asl2c {doing}"));
         }
     };
-    let certified = certify(&agent, &own_tests, &cbmc, limits, &mut tell)?;
-    write(&certified, &asked.output, &inputs)?;
+    let certified = certify(&agent, &own_tests, &cbmc, limits, &known, &mut tell)?;
+    certified.write(&asked.output, &inputs)?;
     let evidence = &certified.evidence;
     let mut text = as_text(evidence);
     // Writing to a string cannot fail.

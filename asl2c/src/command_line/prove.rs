@@ -11,9 +11,11 @@ use translator::{DeclaredProperty, ParsedConfiguration, ROUNDED, obligations};
 use super::arguments::Prove;
 use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print, stop};
-use crate::agent::Agent;
+use crate::agent::{Agent, read};
 use crate::current::check_current;
-use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
+use crate::prove::{
+    Cbmc, Found, Limits, Proof, ProveError, Searched, prove_beginning_with, search,
+};
 use crate::run::Session;
 use crate::written::{WriteError, check_script, write_script};
 
@@ -38,10 +40,11 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
         // Not after the proof, whose result would be lost.
         check_script(output, &script_name(&asked.configuration, &property.name))?;
     }
+    let known = known_conditions(asked.invariant.as_deref())?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
-    let proof = prove(&obligations, &cbmc, folder.path(), &Plan::ALL)?;
+    let proof = prove_beginning_with(&known, &obligations, &cbmc, folder.path())?;
     let mut found = Vec::new();
     if !proof.holds() {
         let session = Session::new(configuration, text)?;
@@ -64,6 +67,12 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     }
     print("the result", &text)?;
     Ok(status(&proof, &saved))
+}
+
+/// The conditions of an invariant that was found earlier, one a line.
+pub(super) fn known_conditions(file: Option<&Path>) -> Result<Vec<String>, CommandError> {
+    let text = file.map_or(Ok(String::new()), read)?;
+    Ok(text.lines().map(str::to_owned).collect())
 }
 
 fn status(proof: &Proof, saved: &[Saved]) -> ExitCode {

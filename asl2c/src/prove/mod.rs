@@ -185,6 +185,24 @@ pub fn prove(
     Ok(Proof { properties, run_time, invariant, candidates: candidates.len(), open })
 }
 
+/// Proves everything, first with the conditions of an invariant that was found earlier, if there are any: to check them
+/// takes a tenth of the time in which it is found. If they do not prove everything, all candidates are tried.
+///
+/// # Errors
+/// As [`prove`].
+pub fn prove_beginning_with(
+    known: &[String],
+    obligations: &Obligations,
+    cbmc: &Cbmc,
+    folder: &Path,
+) -> Result<Proof, ProveError> {
+    let proof = prove(obligations, cbmc, folder, &Plan { known, ..Plan::ALL })?;
+    if known.is_empty() || proof.holds() {
+        return Ok(proof);
+    }
+    prove(obligations, cbmc, folder, &Plan::ALL)
+}
+
 /// Whether a property cannot be proved with these conditions, without those that the agent itself breaks: some transition
 /// from a state that satisfies them violates it. Much faster than [`prove`], but what it does not find says nothing.
 ///

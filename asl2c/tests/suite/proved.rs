@@ -541,9 +541,9 @@ fn nothing_that_a_run_breaks_is_proved() {
     let agents = from_environment("ASL2C_PROVED", 8);
     let mut random =
         Random(0x9E37_79B9_7F4A_7C15 ^ u64::from(from_environment("ASL2C_PROVED_SEED", 1)));
-    let (mut checked, mut proved, mut broken_in_runs, mut undecided) = (0, 0, 0, 0);
+    let (mut checked, mut talking, mut proved, mut broken_in_runs, mut undecided) = (0, 0, 0, 0, 0);
     while checked < agents {
-        let talks = random.chance(50);
+        let talks = random.chance(75);
         let text = agent(&mut random, talks);
         let promises: Vec<DeclaredProperty> =
             (0..5).map(|_| DeclaredProperty::random(&mut random, &text, talks)).collect();
@@ -564,6 +564,7 @@ fn nothing_that_a_run_breaks_is_proved() {
         );
         let Some(broken) = runs(&mut random, &configuration, &text, &promises) else { continue };
         checked += 1;
+        talking += u32::from(talks);
         let verdicts = verdicts(&configuration, &text);
         assert_eq!(verdicts.len(), promises.len());
         for ((property, broken), verdict) in promises.iter().zip(broken).zip(verdicts) {
@@ -578,7 +579,7 @@ fn nothing_that_a_run_breaks_is_proved() {
         }
     }
     println!(
-        "{checked} agents, {} properties: {proved} proved, {broken_in_runs} broken by runs, {undecided} not decided",
+        "{checked} agents, {talking} of them with peers, {} properties: {proved} proved, {broken_in_runs} broken by runs, {undecided} not decided",
         checked * 5
     );
     assert!(proved > 0 && broken_in_runs > 0);
