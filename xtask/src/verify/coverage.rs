@@ -107,6 +107,11 @@ fn read(counted: &Path) -> Result<Coverage, VerifyError> {
     gcov.args(Counts::OPTIONS);
     let output = gcov.args(files(counted, "gcda")?).current_dir(counted).output();
     let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
+    // Counts of other C are none, and gcov does not fail.
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    if complaint.contains("mismatch") {
+        return Err(VerifyError::Tool { tool: "gcov", output: complaint.into_owned() });
+    }
     let read = |name: &str| {
         let path = counted.join(name);
         std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))

@@ -10,12 +10,16 @@ mod tools;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use asl2c::{Cbmc, Checked, Checks, Plan, Proof, alarms, coarse_alarms};
-use translator::TranslateError;
+use asl2c::{
+    Cbmc, CertifyError, Checked, Checks, Evidence, Limits, Plan, Proof, PropertyEvidence,
+    PropertyVerdict, Status, alarms, certify, coarse_alarms, prove_beginning_with,
+};
+use translator::{DeclaredProperty, TranslateError};
 
 use self::mutants::{AGENT, C, CONFIGURATION, MUTANTS, Mutant, RUN_TIME};
-use self::proof::{broken, prove, violates, write_program};
+use self::proof::{broken, prove, to_prove, violates, write_program};
 use self::report::Report;
 use self::tools::{Missing, Tools};
 use crate::parallel;
@@ -46,12 +50,15 @@ pub(crate) enum VerifyError {
     /// Checking the model failed.
     #[error(transparent)]
     Model(#[from] asl2c::VerifyError),
+    /// There is no evidence.
+    #[error(transparent)]
+    Certify(#[from] CertifyError),
+    /// The shipped agent cannot be read.
+    #[error(transparent)]
+    Read(#[from] asl2c::ReadError),
     /// Frama-C came to no result.
     #[error(transparent)]
     Alarms(#[from] asl2c::ToolError),
-    /// Some figures could not be measured: one reason per line.
-    #[error("not everything is measured:\n{0}")]
-    Unmeasured(String),
     /// Unexpected output of a tool.
     #[error("{tool} did not come to a result:\n{output}")]
     Tool {
@@ -78,12 +85,17 @@ const AUTOPILOT: Agent<'_> = Agent {
     configuration: include_str!("../../../autopilot/agent/autopilot.conf"),
     text: include_str!("../../../autopilot/agent/autopilot.asl"),
 };
+const CONFIGURATION_FILE: &str = "autopilot/agent/autopilot.conf";
 const PAPER: Agent<'_> = Agent {
     name: "paper.conf",
     configuration: include_str!("../../../translator/agents/paper.conf"),
     text: include_str!("../../../translator/agents/paper.asl"),
 };
 const REPORT: &str = "docs/verification.md";
+/// The evidence for the shipped agent, as `asl2c certify` makes it.
+const EVIDENCE: &str = "evidence";
+/// Limits of its proofs. A part of the comparison takes up to two minutes where nothing else runs.
+const LIMITS: Limits = Limits { time: Duration::from_mins(30), transitions: 64 };
 /// The autopilot's invariant as it was found last, a condition per line. Checking it takes a tenth of the time that
 /// finding it takes.
 const INVARIANT: &str = "xtask/src/verify/autopilot.invariant";
@@ -92,10 +104,38 @@ const INVARIANT: &str = "xtask/src/verify/autopilot.invariant";
 #[derive(Debug)]
 struct Findings {
     model: Vec<Checked>,
-    c: Proof,
+    on_c: Vec<OnC>,
+    /// Errors at run time that are not excluded.
+    run_time: Vec<String>,
+}
+
+/// A property that was to be proved on the C.
+#[derive(Debug)]
+struct OnC {
+    name: String,
+    requirements: Vec<String>,
+    formula: String,
+    is_proved: bool,
 }
 
 impl Findings {
+    fn of_proof(model: Vec<Checked>, proof: Proof) -> Self {
+        let on_c = proof.properties.into_iter().map(|(property, is_proved)| {
+            let DeclaredProperty { name, requirements, formula, .. } = property;
+            OnC { name, requirements, formula, is_proved }
+        });
+        Self { model, on_c: on_c.collect(), run_time: proof.run_time }
+    }
+
+    fn of_evidence(model: Vec<Checked>, evidence: &Evidence) -> Self {
+        let on_c = evidence.properties.iter().map(|shown| {
+            let PropertyEvidence { name, requirements, formula, verdict, .. } = shown.clone();
+            OnC { name, requirements, formula, is_proved: verdict == PropertyVerdict::Proved }
+        });
+        let run_time = evidence.run_time_errors.iter().map(|error| error.name.clone()).collect();
+        Self { model, on_c: on_c.collect(), run_time }
+    }
+
     /// Result of a property on the model.
     fn on_model(&self, name: &str) -> Option<&Checked> {
         self.model.iter().find(|checked| checked.property.name == name)
@@ -103,10 +143,11 @@ impl Findings {
 
     /// Whether every property was proved, on the model and on the C.
     fn hold(&self) -> bool {
-        let mut names = self.c.properties.iter().map(|(property, _)| &property.name);
-        self.c.holds()
-            && names
-                .all(|name| self.on_model(name).is_some_and(|checked| checked.verdict.is_proved()))
+        let proved = |on_c: &OnC| {
+            let model = self.on_model(&on_c.name);
+            on_c.is_proved && model.is_some_and(|checked| checked.verdict.is_proved())
+        };
+        self.run_time.is_empty() && self.on_c.iter().all(proved)
     }
 }
 
@@ -127,34 +168,40 @@ impl Caught {
     }
 }
 
-/// Verifies the shipped agent and, unless `only_proofs`, its mutants and the paper's agent. Tests are run to measure the
-/// coverage, or have `counted` it in a folder. Returns the report, and writes it to a file if everything was proved.
-pub(crate) fn run(
-    only_proofs: bool,
-    counted: Option<&Path>,
-) -> Result<(String, bool), VerifyError> {
-    let Tools { cbmc, versions } = Tools::find(only_proofs)?;
+/// Proves the properties of the shipped agent, and nothing else. Returns the report.
+pub(crate) fn proofs() -> Result<(String, bool), VerifyError> {
+    let verifier = Verifier { cbmc: Tools::find(true)?.cbmc };
+    let folder = folder("verify").join("autopilot");
+    let autopilot = verifier.verify(&AUTOPILOT, &folder, &read_invariant()?)?;
+    Ok((report::proved(&autopilot), autopilot.hold()))
+}
+
+/// Makes all evidence for the shipped agent, and looks at its mutants and the paper's agent; with `compares` the C is
+/// compared with the agent's text, too. Tests are run to measure the coverage, or have `counted` it in a folder. Returns the
+/// report, and writes it to a file if everything was shown.
+pub(crate) fn run(compares: bool, counted: Option<&Path>) -> Result<(String, bool), VerifyError> {
+    let Tools { cbmc, versions } = Tools::find(false)?;
     let verifier = Verifier { cbmc };
-    let generated = folder("verify");
     let known = read_invariant()?;
-    let autopilot = verifier.verify(&AUTOPILOT, &generated.join("autopilot"), &known)?;
-    if autopilot.hold() && autopilot.c.invariant != known {
-        write(Path::new(""), INVARIANT, &(autopilot.c.invariant.join("\n") + "\n"))?;
+    let evidence = verifier.certify(&known, compares)?;
+    let autopilot = Findings::of_evidence(model::check(&AUTOPILOT)?, &evidence);
+    if autopilot.hold() && evidence.invariant != known {
+        write(Path::new(""), INVARIANT, &(evidence.invariant.join("\n") + "\n"))?;
     }
-    if only_proofs {
-        return Ok((report::proved(&autopilot), autopilot.hold()));
-    }
-    let paper = verifier.verify(&PAPER, &generated.join("paper"), &[])?;
-    let mutants = verifier.mutants(&autopilot.c.invariant)?;
-    let cost = model::cost(&AUTOPILOT)?;
+    let paper = verifier.verify(&PAPER, &folder("verify").join("paper"), &[])?;
+    let mutants = verifier.mutants(&evidence.invariant)?;
     let coverage = counted.map_or_else(coverage::measure, coverage::counted)?;
-    let good = autopilot.hold() && mutants.iter().all(Caught::is_caught);
-    let report = Report { versions, autopilot, paper, mutants, cost, coverage };
+    let is_compared = evidence.validation.status == Status::Shown;
+    let rest = [evidence.rules_status(), evidence.bounds_status(), evidence.tests_status()];
+    let is_shown = autopilot.hold() && rest.iter().all(|status| *status == Status::Shown);
+    let good = is_shown && (is_compared || !compares) && mutants.iter().all(Caught::is_caught);
+    let report = Report { versions, evidence, autopilot, paper, mutants, coverage };
     let mut lines = report.lines();
-    if good {
+    if good && is_compared {
         write(Path::new(""), REPORT, &report.markdown())?;
     } else {
-        lines += "Not all was proved: ";
+        lines +=
+            if compares { "Not all was shown: " } else { "The C was not compared with the text: " };
         lines += REPORT;
         lines += " is left as it was\n";
     }
@@ -167,27 +214,32 @@ struct Verifier {
 }
 
 impl Verifier {
-    /// All results of an agent. If the known conditions are not an invariant that proves everything, one is
-    /// searched for.
+    /// All results of an agent. The proof begins with the known conditions.
     fn verify(
         &self,
         agent: &Agent<'_>,
         folder: &Path,
         known: &[String],
     ) -> Result<Findings, VerifyError> {
-        let prove_with = |known: &[String]| {
-            prove(agent, &self.cbmc, folder, &Plan { known, ..Plan::ALL }, |_| None)
-        };
         let prove = || {
-            let mut c = prove_with(known)?;
-            if !c.holds() && !known.is_empty() {
-                c = prove_with(&[])?;
-            }
-            c.run_time.extend(alarms(folder)?);
-            Ok(c)
+            let obligations = to_prove(agent, |_| None)?;
+            let mut proof = prove_beginning_with(known, &obligations, &self.cbmc, folder)?;
+            proof.run_time.extend(alarms(folder)?);
+            Ok::<_, VerifyError>(proof)
         };
-        let (model, c) = parallel::both(|| model::check(agent), prove)?;
-        Ok(Findings { model, c })
+        let (model, proof) = parallel::both(|| model::check(agent), prove)?;
+        Ok(Findings::of_proof(model, proof))
+    }
+
+    /// The evidence for the shipped agent, as `asl2c certify` makes it, in its folder.
+    fn certify(&self, known: &[String], compares: bool) -> Result<Evidence, VerifyError> {
+        // Whoever has no time for the comparison decides nothing by it.
+        let time = if compares { LIMITS.time } else { Duration::ZERO };
+        let agent = asl2c::Agent::read(Path::new(CONFIGURATION_FILE))?;
+        let certified =
+            certify(&agent, &[], &self.cbmc, Limits { time, ..LIMITS }, known, &mut |_| ())?;
+        certified.write(&folder(EVIDENCE), &[])?;
+        Ok(certified.evidence)
     }
 
     /// Results of the mutants, given the invariant of the agent.

@@ -52,7 +52,8 @@ pub(super) fn write_program(
     files.try_for_each(|file| write(folder, &file.name, &file.text))
 }
 
-fn to_prove(
+/// What is proved of an agent; `change` may spoil its files.
+pub(super) fn to_prove(
     agent: &Agent<'_>,
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<Obligations, VerifyError> {

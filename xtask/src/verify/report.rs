@@ -2,45 +2,38 @@
 
 use std::fmt::Write as _;
 
-use translator::DeclaredProperty;
+use asl2c::{Evidence, Status};
 
 use super::coverage::Coverage;
 use super::tools::Versions;
-use super::{Caught, Findings};
+use super::{Caught, Findings, OnC};
 
 /// All results.
 pub(super) struct Report {
     pub(super) versions: Versions,
+    pub(super) evidence: Evidence,
     pub(super) autopilot: Findings,
     pub(super) paper: Findings,
     pub(super) mutants: Vec<Caught>,
-    /// Output of `asl2c --report`.
-    pub(super) cost: String,
     pub(super) coverage: Coverage,
 }
 
-/// A row of the table of properties.
-struct Row<'a> {
-    property: &'a DeclaredProperty,
-    on_model: &'static str,
-    on_c: &'static str,
-}
-
 impl Findings {
-    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.c.properties.iter().map(|(property, holds)| {
-            let on_model = match self.on_model(&property.name) {
+    /// Each property with the words for its results on the model and on the C.
+    fn rows(&self) -> impl Iterator<Item = (&OnC, &'static str, &'static str)> {
+        self.on_c.iter().map(|on_c| {
+            let on_model = match self.on_model(&on_c.name) {
                 None => "NOT CHECKED",
                 Some(checked) if checked.verdict.is_proved() => "holds",
                 Some(checked) if checked.verdict.is_refuted() => "FAILS",
                 Some(_) => "not decided",
             };
-            Row { property, on_model, on_c: if *holds { "proved" } else { "NOT PROVED" } }
+            (on_c, on_model, if on_c.is_proved { "proved" } else { "NOT PROVED" })
         })
     }
 
     fn run_time(&self) -> &'static str {
-        if self.c.run_time.is_empty() { "proved" } else { "NOT PROVED" }
+        if self.run_time.is_empty() { "proved" } else { "NOT PROVED" }
     }
 }
 
@@ -49,12 +42,11 @@ pub(super) fn proved(autopilot: &Findings) -> String {
     let mut text =
         String::from("The shipped agent, in every environment, for any number of steps\n");
     // Writing to a string cannot fail.
-    for row in autopilot.rows() {
-        let name = &row.property.name;
-        _ = writeln!(text, "  {name:<28}model: {:<10}C: {}", row.on_model, row.on_c);
+    for (OnC { name, .. }, on_model, on_c) in autopilot.rows() {
+        _ = writeln!(text, "  {name:<28}model: {on_model:<10}C: {on_c}");
     }
     _ = writeln!(text, "  {:<46}C: {}", "no error at run time", autopilot.run_time());
-    for error in &autopilot.c.run_time {
+    for error in &autopilot.run_time {
         _ = writeln!(text, "    possible: {error}");
     }
     for checked in autopilot.model.iter().filter(|one| !one.verdict.is_proved()) {
@@ -70,10 +62,24 @@ pub(super) fn proved(autopilot: &Findings) -> String {
     text
 }
 
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Shown => "shown",
+        Status::Undecided => "NOT DECIDED",
+        Status::Refuted => "REFUTED",
+    }
+}
+
 impl Report {
     /// Report for the terminal.
     pub(super) fn lines(&self) -> String {
         let mut text = proved(&self.autopilot);
+        for (what, status, detail) in self.further_evidence() {
+            _ = writeln!(text, "  {what:<46}{:<12}{detail}", word(status));
+        }
+        for open in &self.evidence.validation.open {
+            _ = writeln!(text, "    {open}");
+        }
         text += "Mutants, each of which must break what it is made for\n";
         for caught in &self.mutants {
             let how = if caught.is_caught() { "caught: " } else { "NOT CAUGHT; broken: " };
@@ -89,12 +95,43 @@ impl Report {
         text
     }
 
+    /// What is shown besides the properties.
+    fn further_evidence(&self) -> [(&'static str, Status, String); 4] {
+        let evidence = &self.evidence;
+        let proofs = evidence.validation.proofs;
+        let outcomes = evidence.reach.outcomes;
+        [
+            (
+                "the C does what the text says",
+                evidence.validation.status,
+                format!("{proofs} proofs"),
+            ),
+            (
+                "rules of MISRA C:2012",
+                evidence.rules_status(),
+                format!("{} deviations", evidence.deviations.len()),
+            ),
+            ("bounds of memory and time", evidence.bounds_status(), String::new()),
+            (
+                "tests made from the text, executed on the C",
+                evidence.tests_status(),
+                format!(
+                    "{} tests; of {} outcomes of conditions {} tested, {} proved to be unreachable, {} open",
+                    evidence.tests.len(),
+                    outcomes.all,
+                    outcomes.tested,
+                    outcomes.unreachable,
+                    outcomes.open()
+                ),
+            ),
+        ]
+    }
+
     /// Report for `docs/verification.md`.
     pub(super) fn markdown(&self) -> String {
         let mut text = String::from(INTRODUCTION);
         text += "| property | requirement | must hold | model | C |\n|---|---|---|---|---|\n";
-        for Row { property, on_model, on_c } in self.autopilot.rows() {
-            let DeclaredProperty { name, requirements, formula, .. } = property;
+        for (OnC { name, requirements, formula, .. }, on_model, on_c) in self.autopilot.rows() {
             let requirements = requirements.join(", ");
             _ = writeln!(text, "| `{name}` | {requirements} | `{formula}` | {on_model} | {on_c} |");
         }
@@ -104,14 +141,19 @@ impl Report {
              conversion that loses, no uninitialised read | | {} |",
             self.autopilot.run_time()
         );
-        let (invariant, candidates) =
-            (self.autopilot.c.invariant.len(), self.autopilot.c.candidates);
+        let (invariant, candidates) = (self.evidence.invariant.len(), self.evidence.candidates);
         let Versions { cbmc, frama_c, spin } = &self.versions;
         _ = writeln!(
             text,
             "\nThe invariant has {invariant} conditions, found among {candidates} candidates. CBMC {cbmc}; \
              Frama-C {frama_c}; {spin}.\n"
         );
+        text += EVIDENCE_INTRODUCTION;
+        text += "| evidence | result | |\n|---|---|---|\n";
+        for (what, status, detail) in self.further_evidence() {
+            _ = writeln!(text, "| {what} | {} | {detail} |", word(status));
+        }
+        text.push('\n');
         text += MUTANTS_INTRODUCTION;
         text += "| mutant | made to break | broken on the C, at least | on the model |\n|---|---|---|---|\n";
         for caught in &self.mutants {
@@ -130,7 +172,7 @@ impl Report {
         }
         self.compare(&mut text);
         self.exercise(&mut text);
-        _ = writeln!(text, "{COST}```text\n{}```", self.cost);
+        _ = writeln!(text, "{COST}```text\n{}```", self.evidence.bounds.report);
         text += LIMITS;
         text
     }
@@ -139,8 +181,7 @@ impl Report {
     fn compare(&self, text: &mut String) {
         *text += PAPER_INTRODUCTION;
         *text += "| property | must hold | model | C |\n|---|---|---|---|\n";
-        for Row { property, on_model, on_c } in self.paper.rows() {
-            let DeclaredProperty { name, formula, .. } = property;
+        for (OnC { name, formula, .. }, on_model, on_c) in self.paper.rows() {
             _ = writeln!(text, "| `{name}` | `{formula}` | {on_model} | {on_c} |");
         }
         _ = writeln!(text, "| no error at run time | | | {} |", self.paper.run_time());
@@ -191,8 +232,8 @@ const INTRODUCTION: &str = "\
 
 `cargo xtask verify` proves the required properties of the shipped agent
 ([`autopilot.asl`](../autopilot/agent/autopilot.asl), [`autopilot.conf`](../autopilot/agent/autopilot.conf)),
-checks that the proofs can fail, measures the coverage of the tests, and, if all was proved, writes this page. Without
-CBMC, SPIN or Frama-C it proves nothing and fails.
+makes all evidence for it, checks that the proofs can fail, measures the coverage of the tests, and, if all was shown, writes
+this page. Without CBMC, SPIN or Frama-C it proves nothing and fails.
 
 Each property is proved twice, in a nondeterministic environment: it may raise every event with any
 arguments at any time, set beliefs to any values (including NaN), and return a different answer to each
@@ -212,6 +253,14 @@ for dangers refer to the agent's percepts and have no exceptions: a step that be
 is running and whatever the operator orders. Their numbers are those of the requirement, not the agent's limits, so
 a changed limit violates them. `descending_goes_on` and `landing_goes_on` state that the descent continues to the ground,
 also after the danger has passed.
+
+";
+
+const EVIDENCE_INTRODUCTION: &str = "\
+## The evidence
+
+`asl2c certify autopilot/agent/autopilot.conf -o DIR` makes all evidence for the shipped agent, as for any other. It is what
+proves the properties on the C above; besides, it shows this:
 
 ";
 
@@ -262,7 +311,7 @@ const LIMITS: &str = "
 
 - The C is translated with the agent's state passed in, as the autopilot uses it. For `instance = static` the
   proofs cover the same plans and cycle, but not the other access to the state.
-- That the C does what the agent's text says is proved too, by `asl2c validate` ([validation.md](validation.md)).
+- That the C does what the text says is proved too, as by `asl2c validate` ([validation.md](validation.md)).
 - CBMC, Frama-C, SPIN, the C compiler and the Rust code around the agent are trusted. The effect of an
   AT command is not part of the proof: it depends on the safety monitor, the session and the drone
   ([safety.md](safety.md)), and is tested.
