@@ -62,6 +62,8 @@ pub(crate) fn output(
     let path = folder.join(program);
     let mut command =
         if program.contains('/') { Command::new(path) } else { Command::new(program) };
+    // Somebody may count what other programs execute: the counts of this one are looked for beside it.
+    command.env_remove("GCOV_PREFIX").env_remove("GCOV_PREFIX_STRIP");
     let failed = |source: io::Error| {
         if source.kind() == io::ErrorKind::NotFound {
             ToolError::Missing { program: program.to_owned(), package: package(program) }

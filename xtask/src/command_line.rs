@@ -188,8 +188,8 @@ enum Command {
         /// Do not compare the C with the agent's text, which takes half of the time
         #[arg(long, conflicts_with = "only_proofs")]
         no_comparison: bool,
-        /// Read what tests exercise from this folder, once `target/coverage.lock` is free: they are built and run by
-        /// somebody else, with the folder in `AGENT_COVERAGE`
+        /// Read what tests exercise from this folder, once `target/coverage.lock` is free: they are built with
+        /// `AGENT_COVERAGE` and run by somebody else, and here are their counts with what `gcc` noted of the C
         #[arg(long, value_name = "DIR", conflicts_with = "only_proofs")]
         counted: Option<PathBuf>,
     },
