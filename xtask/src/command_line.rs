@@ -188,10 +188,6 @@ enum Command {
         /// Do not compare the C with the agent's text, which takes half of the time
         #[arg(long, conflicts_with = "only_proofs")]
         no_comparison: bool,
-        /// Read what tests exercise from this folder, once `target/coverage.lock` is free: they are built with
-        /// `AGENT_COVERAGE` and run by somebody else, and here are their counts with what `gcc` noted of the C
-        #[arg(long, value_name = "DIR", conflicts_with = "only_proofs")]
-        counted: Option<PathBuf>,
     },
     /// Compile the gallery's agents and the shipped one for a Cortex-M4, measure that code, and compare its trace under
     /// QEMU with this machine's; fails if one differs or exceeds its bounds
@@ -256,9 +252,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Soak(arguments) => soak::run(&arguments)?,
         Command::Verify { only_proofs: true, .. } => verify::proofs()?,
-        Command::Verify { no_comparison, counted, .. } => {
-            verify::run(!no_comparison, counted.as_deref())?
-        }
+        Command::Verify { no_comparison, .. } => verify::run(!no_comparison)?,
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
     })

@@ -177,9 +177,8 @@ pub(crate) fn proofs() -> Result<(String, bool), VerifyError> {
 }
 
 /// Makes all evidence for the shipped agent, and looks at its mutants and the paper's agent; with `compares` the C is
-/// compared with the agent's text, too. Tests are run to measure the coverage, or have `counted` it in a folder. Returns the
-/// report, and writes it to a file if everything was shown.
-pub(crate) fn run(compares: bool, counted: Option<&Path>) -> Result<(String, bool), VerifyError> {
+/// compared with the agent's text, too. Returns the report, and writes it to a file if everything was shown.
+pub(crate) fn run(compares: bool) -> Result<(String, bool), VerifyError> {
     let Tools { cbmc, versions } = Tools::find(false)?;
     let verifier = Verifier { cbmc };
     let known = read_invariant()?;
@@ -190,7 +189,7 @@ pub(crate) fn run(compares: bool, counted: Option<&Path>) -> Result<(String, boo
     }
     let paper = verifier.verify(&PAPER, &folder("verify").join("paper"), &[])?;
     let mutants = verifier.mutants(&evidence.invariant)?;
-    let coverage = counted.map_or_else(coverage::measure, coverage::counted)?;
+    let coverage = coverage::measure()?;
     let is_compared = evidence.validation.status == Status::Shown;
     let rest = [evidence.rules_status(), evidence.bounds_status(), evidence.tests_status()];
     let is_shown = autopilot.hold() && rest.iter().all(|status| *status == Status::Shown);
