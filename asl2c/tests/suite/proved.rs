@@ -252,7 +252,7 @@ impl DeclaredProperty {
             let heard = HEARD.iter().filter(|(_, plans)| agent.contains(plans));
             event = random.of(&heard.map(|(event, _)| *event).collect::<Vec<_>>());
         }
-        match random.below(if talks { 12 } else { 9 }) {
+        match random.below(if talks { 12 } else { 10 }) {
             0..=3 => Self::Count(
                 random.of(&["never", "at_most_one", "at_least_one", "exactly_one", "never"]),
                 action,
