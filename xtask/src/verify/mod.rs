@@ -191,9 +191,12 @@ pub(crate) fn run(compares: bool) -> Result<(String, bool), VerifyError> {
     let mutants = verifier.mutants(&evidence.invariant)?;
     let coverage = coverage::measure()?;
     let is_compared = evidence.validation.status == Status::Shown;
+    let is_refuted = evidence.validation.status == Status::Refuted;
     let rest = [evidence.rules_status(), evidence.bounds_status(), evidence.tests_status()];
     let is_shown = autopilot.hold() && rest.iter().all(|status| *status == Status::Shown);
-    let good = is_shown && (is_compared || !compares) && mutants.iter().all(Caught::is_caught);
+    let good = is_shown
+        && (is_compared || !compares && !is_refuted)
+        && mutants.iter().all(Caught::is_caught);
     let report = Report { versions, evidence, autopilot, paper, mutants, coverage };
     let mut lines = report.lines();
     if good && is_compared {
