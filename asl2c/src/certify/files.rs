@@ -29,40 +29,36 @@ impl Certified {
     /// # Errors
     /// If the folder holds something else, or a file cannot be written.
     pub fn write(&self, folder: &Path, inputs: &[PathBuf]) -> Result<(), CertifyError> {
-        write(self, folder, inputs)
+        let failed = |what: &str, path: &Path| {
+            let what = format!("cannot {what} {}", path.display());
+            move |source: io::Error| CertifyError::Io { what, source }
+        };
+        let earlier = earlier(folder, inputs)?;
+        let mut files = self.files.clone();
+        let json = serde_json::to_string_pretty(&self.evidence).map_err(io::Error::from);
+        let json = json.map_err(failed("make", Path::new(JSON)))?;
+        files.push((JSON.to_owned(), format!("{json}\n")));
+        files.push((PAGE.to_owned(), page(self)));
+        let conditions = self.evidence.invariant.iter().map(|condition| format!("{condition}\n"));
+        files.push((INVARIANT.to_owned(), conditions.collect()));
+        files.sort();
+        let mut checksums = String::new();
+        for (name, text) in &files {
+            // Writing to a string cannot fail.
+            _ = writeln!(checksums, "{}  {name}", checksum(text.as_bytes()));
+        }
+        files.push((CHECKSUMS.to_owned(), marked(&checksums, Comment::Hash)));
+        for (name, _) in &files {
+            let parent = Path::new(name).parent().unwrap_or(Path::new(""));
+            written::make_folders(folder, parent)?;
+        }
+        let replaces = |old: &[u8]| earlier.is_from_it(old);
+        let new = |name, text| New { name, text, replaces: &replaces, help: HELP };
+        let stale = earlier.names().filter(|name| !files.iter().any(|(new, _)| new == name));
+        let stale: Vec<New<'_>> = stale.map(|name| new(name, "")).collect();
+        let files: Vec<New<'_>> = files.iter().map(|(name, text)| new(name, text)).collect();
+        Ok(written::write(folder, &files, &stale)?)
     }
-}
-
-fn write(certified: &Certified, folder: &Path, inputs: &[PathBuf]) -> Result<(), CertifyError> {
-    let failed = |what: &str, path: &Path| {
-        let what = format!("cannot {what} {}", path.display());
-        move |source: io::Error| CertifyError::Io { what, source }
-    };
-    let earlier = earlier(folder, inputs)?;
-    let mut files = certified.files.clone();
-    let json = serde_json::to_string_pretty(&certified.evidence).map_err(io::Error::from);
-    let json = json.map_err(failed("make", Path::new(JSON)))?;
-    files.push((JSON.to_owned(), format!("{json}\n")));
-    files.push((PAGE.to_owned(), page(certified)));
-    let conditions = certified.evidence.invariant.iter().map(|condition| format!("{condition}\n"));
-    files.push((INVARIANT.to_owned(), conditions.collect()));
-    files.sort();
-    let mut checksums = String::new();
-    for (name, text) in &files {
-        // Writing to a string cannot fail.
-        _ = writeln!(checksums, "{}  {name}", checksum(text.as_bytes()));
-    }
-    files.push((CHECKSUMS.to_owned(), marked(&checksums, Comment::Hash)));
-    for (name, _) in &files {
-        let parent = Path::new(name).parent().unwrap_or(Path::new(""));
-        written::make_folders(folder, parent)?;
-    }
-    let replaces = |old: &[u8]| earlier.is_from_it(old);
-    let new = |name, text| New { name, text, replaces: &replaces, help: HELP };
-    let stale = earlier.names().filter(|name| !files.iter().any(|(new, _)| new == name));
-    let stale: Vec<New<'_>> = stale.map(|name| new(name, "")).collect();
-    let files: Vec<New<'_>> = files.iter().map(|(name, text)| new(name, text)).collect();
-    Ok(written::write(folder, &files, &stale)?)
 }
 
 /// Checks that evidence can be written to a folder: it is not there yet, empty, or holds evidence that nobody has

@@ -23,7 +23,8 @@ fn certify_with(agent: &Path, folder: &Path, further: &[&Path]) -> Option<Output
     };
     let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
     command.arg("certify").arg(agent).arg("-o").arg(folder).arg("--cbmc").arg(cbmc);
-    command.args(further);
+    // Whoever counts what asl2c itself executes changes nothing.
+    command.args(further).env("GCOV_PREFIX", "/none");
     let output = command.output().unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
     if complaint.contains("nothing is certified") {
