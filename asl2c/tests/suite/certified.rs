@@ -84,6 +84,8 @@ fn the_evidence_is_whole_and_the_same_each_time() {
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("C and text    shown (10 proofs)"), "{said}");
+    let tested = &evidence(&first)["reach"]["outcomes"]["tested"];
+    assert!(tested.as_u64().is_some_and(|tested| tested > 10), "{tested}");
     // The second takes the place of an earlier one, of which nothing is left but what somebody else has put there.
     for (name, text) in files(&first) {
         std::fs::create_dir_all(second.join(&name).parent().unwrap()).unwrap();
