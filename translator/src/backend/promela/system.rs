@@ -330,12 +330,23 @@ impl Emission<'_> {
             // It may be any of them.
             _ => "true".to_owned(),
         };
+        // Whoever is not known may be the agent itself.
+        let may_be_oneself = match to {
+            Value::Constant(..) | Value::Me => None,
+            Value::Variable(variable) => {
+                Some(format!("{} == {UNKNOWN_PEER}", receiver(place, *variable)))
+            }
+            _ => Some("true".to_owned()),
+        };
         let guards: Vec<String> = ways.iter().map(|way| guard(way.to)).collect();
         self.writer.line("if");
         for (guard, way) in guards.iter().zip(ways) {
             self.writer.line(format!(":: {guard} ->"));
             self.put(way);
             self.writer.line("skip");
+        }
+        if let Some(guard) = may_be_oneself {
+            self.writer.line(format!(":: {guard}"));
         }
         self.writer.line(":: else");
         self.writer.line("fi;");
