@@ -207,7 +207,7 @@ pub fn prove_beginning_with(
 /// from a state that satisfies them violates it. Much faster than [`prove`], but what it does not find says nothing.
 ///
 /// The states whose next step handles one of these goals come first: where one of them violates it, the others are not
-/// looked at. Conditions are only sought to be broken there.
+/// looked at. Conditions are only sought to be broken there, because that takes longest.
 ///
 /// # Errors
 /// If a file cannot be written, there is no such property, or CBMC gives no result.
@@ -226,7 +226,8 @@ pub fn violates(
     };
     let mut chosen = tried(obligations, known);
     loop {
-        for invariant in at_goals(&chosen) {
+        let all = obligations.invariant(&chosen);
+        for invariant in at_goals(&chosen).into_iter().chain([all]) {
             put(invariant)?;
             if cbmc.violates(folder, FUNCTION, property)? {
                 return Ok(true);
@@ -239,12 +240,10 @@ pub fn violates(
             kept.retain(|index| left.contains(index));
         }
         if kept.len() == chosen.len() {
-            break;
+            return Ok(false);
         }
         chosen = kept;
     }
-    put(obligations.invariant(&chosen))?;
-    cbmc.violates(folder, FUNCTION, property)
 }
 
 /// The branches of the agent's C that no execution takes, after a [`prove`] of all in the same folder: from no state that
