@@ -1,7 +1,7 @@
 //! Translates the agent to C and Rust, and compiles the C.
 //!
-//! If `AGENT_COVERAGE` names a folder, the C is instrumented and its coverage (gcov) is collected there;
-//! `cargo xtask verify` uses this.
+//! If `AGENT_COVERAGE` is set, the C counts what it executes (gcov), beside itself in `OUT_DIR`; `cargo xtask verify` reads
+//! this.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -34,27 +34,22 @@ fn build() -> Result<(), Box<dyn Error>> {
         println!("cargo::warning={line}");
     }
     println!("cargo::rerun-if-env-changed={COVERAGE}");
-    let counted = std::env::var_os(COVERAGE).map(PathBuf::from);
-    let sources = counted.as_ref().unwrap_or(&out);
-    std::fs::create_dir_all(sources)?;
+    let is_counted = std::env::var_os(COVERAGE).is_some();
     let mut c = cc::Build::new();
-    c.include(sources).std("c99").flag(translator::ROUNDED).warnings(true).extra_warnings(true);
+    c.include(&out).std("c99").flag(translator::ROUNDED).warnings(true).extra_warnings(true);
     for file in &translation.files {
-        // Cargo expects the bindings in `OUT_DIR`.
-        std::fs::write(out.join(&file.name), &file.text)?;
-        let path = sources.join(&file.name);
+        let path = out.join(&file.name);
         std::fs::write(&path, &file.text)?;
         if path.extension().is_some_and(|extension| extension == "c") {
             c.file(path);
         }
     }
-    if counted.is_some() {
+    if is_counted {
         // Optimized code has other branches than the source; atomic counters allow tests on several threads.
-        c.opt_level(0).flag("--coverage").flag("-fprofile-update=atomic").out_dir(sources);
-        println!("cargo::rerun-if-changed={}", sources.join(&translation.files[0].name).display());
+        c.opt_level(0).flag("--coverage").flag("-fprofile-update=atomic");
     }
     c.try_compile("autopilot_agent")?;
-    if counted.is_some() {
+    if is_counted {
         println!("cargo::rustc-link-lib=gcov");
     }
     Ok(())

@@ -188,6 +188,10 @@ enum Command {
         /// Do not compare the C with the agent's text, which takes half of the time
         #[arg(long, conflicts_with = "only_proofs")]
         no_comparison: bool,
+        /// Build and run no tests: read what those have counted that are built in this target folder, with
+        /// `AGENT_COVERAGE` set, once `target/coverage.lock` is free
+        #[arg(long, value_name = "DIR", conflicts_with = "only_proofs")]
+        counted: Option<PathBuf>,
     },
     /// Compile the gallery's agents and the shipped one for a Cortex-M4, measure that code, and compare its trace under
     /// QEMU with this machine's; fails if one differs or exceeds its bounds
@@ -252,7 +256,9 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Soak(arguments) => soak::run(&arguments)?,
         Command::Verify { only_proofs: true, .. } => verify::proofs()?,
-        Command::Verify { no_comparison, .. } => verify::run(!no_comparison)?,
+        Command::Verify { no_comparison, counted, .. } => {
+            verify::run(!no_comparison, counted.as_deref())?
+        }
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
     })

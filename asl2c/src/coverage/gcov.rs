@@ -88,6 +88,24 @@ impl Counts {
         Ok(Self { lines: files.flat_map(|file| file.lines).collect() })
     }
 
+    /// Whether the others can be added: the same lines, with the same branches.
+    pub fn is_of_the_same(&self, others: &Self) -> bool {
+        let shape = |counts: &Self| -> Vec<(usize, usize)> {
+            counts.lines.iter().map(|line| (line.line, line.branches.len())).collect()
+        };
+        shape(self) == shape(others)
+    }
+
+    /// Adds what another build of the same C has counted.
+    pub fn add(&mut self, others: &Self) {
+        for (line, other) in self.lines.iter_mut().zip(&others.lines) {
+            line.count += other.count;
+            for (branch, other) in line.branches.iter_mut().zip(&other.branches) {
+                branch.count += other.count;
+            }
+        }
+    }
+
     /// Executed lines of a part of the file.
     pub fn statements(&self, part: &RangeInclusive<usize>) -> Share {
         let mut share = Share::default();
@@ -132,5 +150,20 @@ mod tests {
         assert_eq!(counts.outcomes(&(1..=9)).to_string(), "1 of 4");
         assert_eq!(counts.outcomes(&(3..=5)).to_string(), "0 of 2");
         assert_eq!(counts.statements(&(2..=3)).to_string(), "2 of 2");
+    }
+
+    #[test]
+    fn counts_of_the_same_c_are_added() {
+        let counts = |line: usize, count: u64, other: u64| {
+            let output = format!(
+                r#"{{ "files": [{{ "file": "a.c", "lines": [{{ "line_number": {line}, "count": {count},
+                "branches": [{{ "count": {count} }}, {{ "count": {other} }}] }}] }}] }}"#
+            );
+            Counts::parse(&output, "a.c").unwrap()
+        };
+        let mut sum = counts(2, 3, 0);
+        assert!(sum.is_of_the_same(&counts(2, 4, 1)) && !sum.is_of_the_same(&counts(3, 4, 1)));
+        sum.add(&counts(2, 4, 1));
+        assert_eq!(sum, counts(2, 7, 1));
     }
 }

@@ -3,21 +3,28 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use asl2c::{Counts, Share};
 use serde::Deserialize;
 
+use super::mutants::C;
 use super::{VerifyError, folder, in_file};
 
 /// Test filters: flights in simulated time, and the agent's own tests.
 const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
 
+/// Set where the agent's C counts what it executes.
+const COUNTS: &str = "AGENT_COVERAGE";
+
 /// The programs with counters are built here: they must not take the place of those without.
 const BUILT: &str = "coverage";
 
-/// Locked by `.ci/run` while it fills that folder with what is built already.
+/// Which lines of the C implement which plan.
+const TRACE: &str = "trace.json";
+
+/// Locked by `.ci/run` until its tests have counted.
 const LOCK: &str = "coverage.lock";
 
 /// Coverage of one plan.
@@ -70,56 +77,99 @@ impl Coverage {
     }
 }
 
-/// Runs the tests with instrumented C.
+/// Builds with counters, and runs, the tests that are meant to exercise the agent.
 pub(super) fn measure() -> Result<Coverage, VerifyError> {
-    let counted = folder("verify").join("coverage");
-    std::fs::create_dir_all(&counted).map_err(in_file("cannot make", &counted))?;
-    let counted = counted.canonicalize().map_err(in_file("cannot find", &counted))?;
-    for path in files(&counted, "gcda")? {
-        std::fs::remove_file(&path).map_err(in_file("cannot remove", &path))?;
+    let built = folder(BUILT);
+    for path in agents(&built)?.iter().flat_map(|agent| &agent.counts) {
+        std::fs::remove_file(path).map_err(in_file("cannot remove", path))?;
     }
-    let lock = folder(LOCK);
-    let filled = File::create(&lock).map_err(in_file("cannot make", &lock))?;
-    filled.lock().map_err(in_file("cannot wait for", &lock))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tests = Command::new(&cargo);
     // Of the whole workspace: of two packages alone, dependencies have other features, and would be built again.
     tests.args(["test", "--locked", "--quiet", "--workspace", "--lib", "--test", "system", "--"]);
     tests.args(TESTS);
-    tests.env("AGENT_COVERAGE", &counted).env("CARGO_TARGET_DIR", folder(BUILT));
+    tests.env(COUNTS, "1").env("CARGO_TARGET_DIR", &built);
     let output = tests.output();
     let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         return Err(VerifyError::Tool { tool: "cargo test", output: text });
     }
-    let mut gcov = Command::new("gcov");
-    gcov.args(Counts::OPTIONS);
-    let output = gcov.args(files(&counted, "gcda")?).current_dir(&counted).output();
-    let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
-    let read = |name: &str| {
-        let path = counted.join(name);
-        std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))
-    };
-    let odd = |tool: &'static str| {
-        move |error: serde_json::Error| VerifyError::Tool { tool, output: error.to_string() }
-    };
-    let counted_lines = String::from_utf8_lossy(&output.stdout);
-    let counts = Counts::parse(&counted_lines, "autopilot.c").map_err(odd("gcov"))?;
-    let rows: Vec<Row> = serde_json::from_str(&read("trace.json")?).map_err(odd("asl2c"))?;
-    let coverage = assign(&counts, &rows, &read("autopilot.c")?);
-    // Counts of other C are none, and gcov only complains.
-    if coverage.lines.ran == 0 {
-        let output = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(VerifyError::Tool { tool: "gcov", output });
-    }
-    Ok(coverage)
+    read(&built)
 }
 
-fn files(folder: &Path, extension: &str) -> Result<Vec<std::path::PathBuf>, VerifyError> {
+/// What tests have counted that somebody else builds, in this target folder, and runs, and who holds the lock so long.
+pub(super) fn counted(built: &Path) -> Result<Coverage, VerifyError> {
+    let lock = folder(LOCK);
+    let done = File::create(&lock).map_err(in_file("cannot make", &lock))?;
+    done.lock().map_err(in_file("cannot wait for", &lock))?;
+    read(built)
+}
+
+/// The agent's C as one of its builds left it: cargo builds it once for each set of features.
+struct Built {
+    folder: PathBuf,
+    /// Files of its counters; there are none if none of its programs ran.
+    counts: Vec<PathBuf>,
+}
+
+/// The builds of the agent in a target folder.
+fn agents(built: &Path) -> Result<Vec<Built>, VerifyError> {
+    let builds = built.join("debug/build");
+    if !builds.exists() {
+        return Ok(Vec::new());
+    }
+    let folders = listed(&builds)?.into_iter().map(|build| build.join("out"));
+    let folders = folders.filter(|folder| folder.join(TRACE).exists() && folder.join(C).exists());
+    folders
+        .map(|folder| {
+            let mut counts = listed(&folder)?;
+            counts.retain(|path| path.extension().is_some_and(|extension| extension == "gcda"));
+            Ok(Built { folder, counts })
+        })
+        .collect()
+}
+
+fn listed(folder: &Path) -> Result<Vec<PathBuf>, VerifyError> {
     let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
-    let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
-    Ok(paths.filter(|path| path.extension().is_some_and(|own| own == extension)).collect())
+    Ok(entries.filter_map(Result::ok).map(|entry| entry.path()).collect())
+}
+
+/// The coverage by all programs that ran. Counts that do not belong to the C beside them are an error: of those gcov only
+/// complains, and prints none.
+fn read(built: &Path) -> Result<Coverage, VerifyError> {
+    let mut whole: Option<(Counts, PathBuf)> = None;
+    for agent in agents(built)?.into_iter().filter(|agent| !agent.counts.is_empty()) {
+        let mut gcov = Command::new("gcov");
+        let output =
+            gcov.args(Counts::OPTIONS).args(&agent.counts).current_dir(&agent.folder).output();
+        let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
+        let counts =
+            Counts::parse(&String::from_utf8_lossy(&output.stdout), C).map_err(odd("gcov"))?;
+        let is_the_same = whole.as_ref().is_none_or(|(others, _)| counts.is_of_the_same(others));
+        if !counts.lines.iter().any(|line| line.count > 0) || !is_the_same {
+            let output = String::from_utf8_lossy(&output.stderr).into_owned();
+            return Err(VerifyError::Tool { tool: "gcov", output });
+        }
+        match &mut whole {
+            Some((others, _)) => others.add(&counts),
+            None => whole = Some((counts, agent.folder)),
+        }
+    }
+    let Some((counts, folder)) = whole else {
+        let output = format!("no test has counted what the agent executes, in {}", built.display());
+        return Err(VerifyError::Tool { tool: "cargo test", output });
+    };
+    let read = |name: &str| {
+        let path = folder.join(name);
+        std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))
+    };
+    let rows: Vec<Row> = serde_json::from_str(&read(TRACE)?).map_err(odd("asl2c"))?;
+    Ok(assign(&counts, &rows, &read(C)?))
+}
+
+fn odd(tool: &'static str) -> impl FnOnce(serde_json::Error) -> VerifyError {
+    move |error| VerifyError::Tool { tool, output: error.to_string() }
 }
 
 /// A row of the trace matrix: a plan and one of its requirements.
