@@ -19,7 +19,7 @@ use crate::harness::{Case, from_environment};
 
 /// An agent whose messages have arguments of all kinds.
 const TALKER: Case = Case {
-    basics: "void show(int64_t); void who(peer); void place(place_t);",
+    basics: "void show(int64_t); void who(peer); void place(place_t); void both(float, float);",
     types: "go(void);",
     sections: "structs { place_t { double x; float y; bool known; }; };
         peers { leader, wingman, scout };
@@ -27,11 +27,11 @@ const TALKER: Case = Case {
           tell at(double, float, place_t, peer) from any;
           tell low from wingman, scout;
           tell named(const char *) from leader;
-          tell lastly(place_t) from any;
+          tell lastly(float, float, place_t) from any;
           achieve visit(int64_t, uint8_t, bool) from leader, 2;
         };",
     agent: "+at(_, _, P, Q)[source(S)] <- place(P); who(Q); who(S).
-        +low[source(P)] <- who(P). -low[source(P)] <- who(P); who(P). +!visit(X, _, true)[source(P)] <- show(X); who(P).",
+        +low[source(P)] <- who(P). -low[source(P)] <- who(P); who(P). +lastly(X, Y, _) <- both(X, Y). +!visit(X, _, true)[source(P)] <- show(X); who(P).",
 };
 
 /// Numbers cross by their bits, texts by their bytes.
@@ -46,6 +46,7 @@ impl Environment for World {
     fn show(&mut self, x: i64) { self.0 += &format!(" show {x}"); }
     fn who(&mut self, peer: u8) { self.0 += &format!(" who {}", Peer::try_from(peer).unwrap()); }
     fn place(&mut self, place: PlaceT) { self.0 += &format!(" place {}", place_bits(place)); }
+    fn both(&mut self, x: f32, y: f32) { self.0 += &format!(" both {x} {y}"); }
 }
 
 fn place_bits(PlaceT { x, y, known }: PlaceT) -> String {
@@ -61,7 +62,8 @@ fn bits(Envelope { from, message }: Envelope) -> String {
         Message::UntellLow => "unlow".to_owned(),
         Message::TellNamed(_) => "named".to_owned(),
         Message::UntellNamed => "unnamed".to_owned(),
-        Message::TellLastly(place) => format!("lastly {}", place_bits(place)),
+        Message::TellLastly(a, b, place) =>
+            format!("lastly {:x} {:x} {}", a.to_bits(), b.to_bits(), place_bits(place)),
         Message::UntellLastly => "unlastly".to_owned(),
         Message::AchieveVisit(a, b, c) => format!("visit {a} {b} {c}"),
         Message::UnachieveVisit => "unvisit".to_owned(),
@@ -83,7 +85,7 @@ fn message(kind: u64, words: &[u64]) -> Message {
         3 => Message::UntellLow,
         4 => Message::AchieveVisit(words[0] as i64, words[1] as u8, words[4] % 2 == 1),
         5 => Message::UnachieveVisit,
-        6 => Message::TellLastly(place),
+        6 => Message::TellLastly(float(words[0]), float(words[1]), place),
         _ => Message::TellNamed(c"a \"name\"\n\xff"),
     }
 }
@@ -256,7 +258,7 @@ impl Said {
                 let signed = i64::from_le_bytes(words[0].to_le_bytes());
                 vec![whole(signed.into()), whole((words[1] & 0xff).into()), flag]
             }
-            6 => vec![place],
+            6 => vec![narrow(0), narrow(1), place],
             _ => Vec::new(),
         }
     }
@@ -414,6 +416,7 @@ fn errors_say_what_is_wrong_and_where() {
         ("pilot tell low", "UnknownPeer { column: 18 }".to_owned()),
         (" leader tell low", "UnknownPeer { column: 18 }".to_owned()),
         ("Leader tell low", "UnknownPeer { column: 18 }".to_owned()),
+        ("leaders tell low", "UnknownPeer { column: 18 }".to_owned()),
         ("", "UnknownPeer { column: 18 }".to_owned()),
         ("leader", "UnknownMessage { column: 24 }".to_owned()),
         ("leader ", "UnknownMessage { column: 25 }".to_owned()),
@@ -433,6 +436,7 @@ fn errors_say_what_is_wrong_and_where() {
         ("leader achieve visit(1, 2)", "WrongArgument { column: 43 }".to_owned()),
         ("leader achieve visit(1, 2, yes)", "WrongArgument { column: 45 }".to_owned()),
         ("leader achieve visit(1, 2, True)", "WrongArgument { column: 45 }".to_owned()),
+        ("leader achieve visit(1, 2, 1)", "WrongArgument { column: 45 }".to_owned()),
         ("leader achieve visit(1, 256, true)", "WrongArgument { column: 42 }".to_owned()),
         ("leader achieve visit(1, -1, true)", "WrongArgument { column: 42 }".to_owned()),
         ("leader achieve visit(1, 2, true", "WrongArgument { column: 49 }".to_owned()),
@@ -553,6 +557,8 @@ fn numbers_are_read_in_any_decimal_form() {
     for (text, number) in [
         ("0.1", 0.1_f32),
         ("0.10000000149011612", 0.1),
+        // A little above the middle of two numbers, which it is not rounded to before.
+        ("1.00000005960464477539062500000001", 1.000_000_1),
         ("-1e-46", -0.0),
         ("3.4028235e38", f32::MAX),
         ("nan:ffc00001", f32::from_bits(0xffc0_0001)),
@@ -630,6 +636,8 @@ fn a_line_reaches_the_agent() {
     assert_eq!(hear("leader tell low"), "false");
     assert_eq!(hear("scout tell low"), "true who scout");
     assert_eq!(hear("scout untell low"), "true who scout who scout");
+    // Values of the same type keep their order.
+    assert_eq!(hear("leader tell lastly(1.5, -2.5, {0.0, 0.0, false})"), "true both 1.5 -2.5");
     assert_eq!(hear("leader achieve visit(-9, 1, true)"), "true show -9 who leader");
     assert_eq!(hear("leader achieve visit(-9, 1, false)"), "true");
     assert_eq!(hear("scout achieve visit(-9, 1, true)"), "false");

@@ -79,3 +79,25 @@ pub(super) fn longest(configuration: &Configuration, ctype: &CType) -> usize {
         _ => 0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::parse;
+
+    #[test]
+    fn the_longest_text_of_a_number_has_its_sign() {
+        let (configuration, _) = parse("peers { leader, wingman, scout };");
+        for (name, text) in [
+            ("int8_t", "-128"),
+            ("uint8_t", "255"),
+            ("int", "-2147483648"),
+            ("int64_t", "-9223372036854775808"),
+            ("uint64_t", "18446744073709551615"),
+            ("bool", "false"),
+        ] {
+            assert_eq!(longest(&configuration, &CType::named(name)), text.len(), "{name}");
+        }
+        assert_eq!(longest(&configuration, &CType::peer()), "wingman".len());
+    }
+}
