@@ -219,7 +219,7 @@ fn pair(system: &str) -> tempfile::TempDir {
 
 /// Agents with texts of their own: `one` calls `on` in nearly every step, and `off` of `two` must not be reached.
 const ALONE: &str = "settings { input = INPUT; output = a.c; header = a.h; basics = b.h; };
-    basics { void on(void); void off(void); };
+    basics { void on(void); void off(void); peer other(void); };
     peers { one, two }; messages { tell first from one; tell second from one; tell begin from two; achieve go from one, ROOM; };
     types { live(void); start(void); done(void); s(void); f1(void); f2(void); f3(void); f4(void);
         f5(void); };
@@ -234,21 +234,43 @@ const BUSY: &str =
     "+!start <- .send(one, tell, begin); !s. +!s : not f1 <- +f1; !s. +!s : not f2 <- +f2; !s.
     +!s : not f3 <- +f3; !s. +!s : not f4 <- +f4; !s. +!s : not f5 <- +f5; !s. +!s <- true.
     +!go : not done <- +done. +!go <- off.";
+const TAKES_BACK: &str = "+begin <- .send(two, achieve, go); .send(two, achieve, go).
+    -begin <- on; .send(two, unachieve, go). +!start <- true.";
+/// Busy until both orders have arrived and are taken back.
+const BUSY_LONGER: &str = "+!start : not f1 <- .send(one, tell, begin); !s. +!start <- true.
+    +!s : not f1 <- +f1; !s. +!s : not f2 <- +f2; .send(one, untell, begin); !s. +!s : not f3 <- +f3; !s.
+    +!s : not f4 <- +f4; !s. +!s : not f5 <- +f5; !s. +!s <- true. +!go <- off.";
 const TELLS: &str = "+!start <- .send(two, tell, first); .send(two, tell, second).";
 const COMPARES: &str =
     "!live. +!live : second[source(one)] & not first[source(one)] <- off; !!live. +!live <- !!live.
     +!start <- true.";
+/// The second in a later round than the first.
+const TELLS_LATER: &str =
+    "+!start <- .send(two, tell, first); !!s. +!s <- on; .send(two, tell, second).";
 const ASKS: &str = "+!start <- .send(two, achieve, go).";
+const ASKS_SOMEBODY: &str = "+!start : P = other <- .send(P, achieve, go).";
 const ANSWERS: &str = "+!go <- off. +!start <- true.";
+const TELLS_AND_ASKS: &str =
+    "+!start <- .send(two, tell, first); .send(two, tell, second); .send(two, achieve, go).";
+/// Looks when everything has arrived or is lost.
+const LOOKS: &str =
+    "+!go <- !!s. +!s : not first & not second <- off. +!s <- true. +!start <- true.";
 const NEVER: &str = "never_together(one.on, two.off)";
 
-const ALL_ALONE: [Alone; 7] = [
+const ALL_ALONE: [Alone; 12] = [
     // A ring has its room, and no more.
     (ORDERS, BUSY, 1, "capacity = 2; losses = 0; delay = 1;", NEVER, true),
     (ORDERS, BUSY, 2, "capacity = 2; losses = 0; delay = 1;", NEVER, false),
+    // Who is asked may be anybody.
+    (ASKS_SOMEBODY, ANSWERS, 1, "capacity = 2; losses = 0; delay = 0;", NEVER, false),
+    // All that waits is taken back.
+    (TAKES_BACK, BUSY_LONGER, 2, "capacity = 2; losses = 0; delay = 0;", NEVER, true),
     // A later message may overtake, but both have arrived at the end of a round if nothing is late.
     (TELLS, COMPARES, 1, "capacity = 2; losses = 0; delay = 1;", NEVER, false),
     (TELLS, COMPARES, 1, "capacity = 2; losses = 0; delay = 0;", NEVER, true),
+    (TELLS_LATER, COMPARES, 1, "capacity = 3; losses = 0; delay = 2;", NEVER, false),
+    // Two are lost, with one between them that arrives.
+    (TELLS_AND_ASKS, LOOKS, 1, "capacity = 3; losses = 1; delay = 0;", NEVER, false),
     // An answer counts, if it is not too late and nothing is lost.
     (
         ASKS,
@@ -271,6 +293,14 @@ const ALL_ALONE: [Alone; 7] = [
         ANSWERS,
         1,
         "capacity = 2; losses = 1; delay = 1;",
+        "within(3, one.send_achieve_go, two.off)",
+        false,
+    ),
+    (
+        ASKS,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = any; delay = 1;",
         "within(3, one.send_achieve_go, two.off)",
         false,
     ),
