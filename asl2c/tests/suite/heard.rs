@@ -7,17 +7,18 @@ use std::process::Command;
 use crate::harness::{cbmc, skip};
 
 const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
-basics { void on(void); void off(void); void idle(void); void lift(int); void flash(void); };
+basics { void on(void); void off(void); void idle(void); void lift(int); void flash(void); void again(void); };
 peers { leader, wingman, scout };
 messages { tell low(int) from wingman; achieve land from leader, wingman; achieve go(int) from leader, 2;
     achieve up from wingman; };
-preemptive { +!land; };
+preemptive { +!land; }; types { heard(void); };
 properties {
 ";
 
 const AGENT: &str = "+!land <- on.
 +!up <- flash.
-+low(_) <- idle.
++low(_) : heard <- idle; again.
++low(_) <- +heard; idle.
 -low(_) <- off.
 +!go(X) <- lift(X).
 ";
@@ -29,7 +30,7 @@ const URGENT: &str = "unless +!land[source(leader)], unless +!land[source(wingma
 const WAITING: &str = "unless +!go[source(leader)], unless +!up[source(wingman)]";
 
 /// Each property, and whether it holds.
-const PROPERTIES: [(&str, bool); 14] = [
+const PROPERTIES: [(&str, bool); 15] = [
     ("within(1, +!land[source(leader)], on)", true),
     ("within(1, +!land[source(leader)], lift)", false),
     ("within(1, +!go[source(leader)], lift)", false),
@@ -42,6 +43,8 @@ const PROPERTIES: [(&str, bool); 14] = [
     ("only_after(lift, +!land[source(leader)])", false),
     ("only_after(flash, +low[source(wingman)])", false),
     ("only_after(off, -low[source(wingman)], until on)", true),
+    // Another value is a change, too.
+    ("only_after(again, -low[source(wingman)])", false),
     ("within(1, +low[source(wingman)], idle, URGENT, WAITING)", true),
     ("within(1, -low[source(wingman)], off, URGENT, WAITING)", true),
     ("within(1, -low[source(wingman)], idle, URGENT, WAITING)", false),
@@ -141,5 +144,35 @@ fn what_is_refused_is_not_due() {
         let output = command.current_dir(folder.path()).output().unwrap();
         let text = String::from_utf8_lossy(&output.stdout);
         assert_eq!(text.contains("breaks `answered`"), is_broken, "{room}: {text}");
+    }
+}
+
+/// What a peer takes back before it is noticed is no event any more, and nothing is due for it.
+#[test]
+fn a_change_that_is_taken_back_is_not_due() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+        basics { void on(void); void off(void); };
+        peers { leader, wingman }; messages { tell low from wingman; };
+        triggerables { +!first; }; types { first(void); };
+        properties { told: within(1, +low[source(wingman)], on); gone: within(1, -low[source(wingman)], on); };\n";
+    write("a.conf", configuration);
+    write("a.asl", "+!first <- on.\n+low <- off.\n-low <- off.\n");
+    let (tell, untell) = ("receive_tell_low(wingman)", "receive_untell_low(wingman)");
+    for (said, broken) in [
+        (format!("{tell}; step"), "told"),
+        (format!("{tell}; {untell}; step"), "gone"),
+        (format!("{tell}; {untell}; {tell}; step"), "told"),
+    ] {
+        write("a.script", &format!("{said}\n"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        let command = command.args(["run", "a.conf", "--script", "a.script"]);
+        let output = command.current_dir(folder.path()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        for name in ["told", "gone"] {
+            let is_broken = text.contains(&format!("breaks `{name}`"));
+            assert_eq!(is_broken, name == broken, "{said}: {text}");
+        }
     }
 }
