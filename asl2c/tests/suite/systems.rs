@@ -249,6 +249,7 @@ const TELLS_LATER: &str =
     "+!start <- .send(two, tell, first); !!s. +!s <- on; .send(two, tell, second).";
 const ASKS: &str = "+!start <- .send(two, achieve, go).";
 const ASKS_SOMEBODY: &str = "+!start : P = other <- .send(P, achieve, go).";
+const ASKS_WITHOUT_NAME: &str = "+!start <- .send(other, achieve, go).";
 const ANSWERS: &str = "+!go <- off. +!start <- true.";
 const TELLS_AND_ASKS: &str =
     "+!start <- .send(two, tell, first); .send(two, tell, second); .send(two, achieve, go).";
@@ -257,7 +258,7 @@ const LOOKS: &str =
     "+!go <- !!s. +!s : not first & not second <- off. +!s <- true. +!start <- true.";
 const NEVER: &str = "never_together(one.on, two.off)";
 
-const ALL_ALONE: [Alone; 12] = [
+const ALL_ALONE: [Alone; 14] = [
     // A ring has its room, and no more.
     (ORDERS, BUSY, 1, "capacity = 2; losses = 0; delay = 1;", NEVER, true),
     (ORDERS, BUSY, 2, "capacity = 2; losses = 0; delay = 1;", NEVER, false),
@@ -279,6 +280,23 @@ const ALL_ALONE: [Alone; 12] = [
         "capacity = 2; losses = 0; delay = 1;",
         "within(3, one.send_achieve_go, two.off)",
         true,
+    ),
+    // .. and if it is not oneself who is asked.
+    (
+        ASKS_SOMEBODY,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = 0; delay = 1;",
+        "within(3, one.send_achieve_go, two.off)",
+        false,
+    ),
+    (
+        ASKS_WITHOUT_NAME,
+        ANSWERS,
+        1,
+        "capacity = 2; losses = 0; delay = 1;",
+        "within(3, one.send_achieve_go, two.off)",
+        false,
     ),
     (
         ASKS,

@@ -126,6 +126,9 @@ fn longest_text(configuration: &Configuration, function: &Received) -> usize {
         return 0;
     }
     let (leaves, after) = leaves(configuration, said(function));
+    if leaves.is_empty() {
+        return head(function).len();
+    }
     let values = leaves.iter().map(|leaf| leaf.before.len() + longest(configuration, &leaf.ctype));
     head(function).len() + values.sum::<usize>() + after.len()
 }
