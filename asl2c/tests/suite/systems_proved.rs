@@ -211,8 +211,10 @@ fn plan(
     }
     let mut body = Vec::new();
     for _ in 0..random.below(3) {
-        let to = match (people.is_empty(), random.below(3)) {
-            (false, 0 | 1) => random.of(&people),
+        // Whom a function names may be anybody: oneself, or no peer at all.
+        let to = match (people.is_empty(), random.below(6)) {
+            (false, 0..4) => random.of(&people),
+            (_, 5) => "other",
             _ => PEERS[random.below(peers)],
         };
         let verb = random.of(&["tell", "tell", "untell"]);
@@ -244,7 +246,7 @@ fn plan(
 fn configuration(peers: usize, room: usize) -> String {
     format!(
         "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; }};\n\
-         basics {{ void on(void); void off(void); bool ready(void); bool even(int); }};\n\
+         basics {{ void on(void); void off(void); bool ready(void); bool even(int); peer other(void); }};\n\
          peers {{ {} }};\nmessages {{ tell seen from any; tell at(int) from any; achieve go from any, {room}; \
          achieve come(int) from any; }};\n\
          types {{ live(void); start(void); mine(void); level(int); }}; settables {{ level; }};\n\
@@ -265,6 +267,9 @@ impl Environment for World<'_> {
 
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
         self.calls.push((name.to_owned(), arguments.to_vec()));
+        if result.is_peer() {
+            return Some(Value::Integer(i128::try_from(self.random.below(PEERS.len())).unwrap()));
+        }
         (result.kind == TypeKind::Bool).then(|| Value::Bool(self.random.chance(50)))
     }
 }
@@ -353,7 +358,7 @@ fn run(
                     let Some((performative, about)) = said else { continue };
                     let Value::Integer(to) = values.remove(0) else { panic!("no receiver") };
                     let to = usize::try_from(to).unwrap();
-                    if to == agent {
+                    if to == agent || to >= agents.len() {
                         continue;
                     }
                     let load =
