@@ -213,7 +213,7 @@ fn plan(
     for _ in 0..random.below(3) {
         // Whom a function names may be anybody: oneself, or no peer at all.
         let to = match (people.is_empty(), random.below(6)) {
-            (false, 0..4) => random.of(&people),
+            (false, 0..=3) => random.of(&people),
             (_, 5) => "other",
             _ => PEERS[random.below(peers)],
         };
