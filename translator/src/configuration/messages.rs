@@ -20,20 +20,25 @@ impl Parser<'_> {
         let first = self.scanner.word("a peer")?;
         for name in self.names(first, "a peer")? {
             let same = |other: &Name| other.text.eq_ignore_ascii_case(&name.text);
+            let starts_lower = name.text.starts_with(|c: char| c.is_ascii_lowercase());
+            let words = ["self", "any", "true", "false", "not", "mod"];
+            // It is a peer nevertheless, so that what it says is no error.
             if self.configuration.peers.iter().any(same) {
                 let message = format!("a second peer `{}`", name.text);
-                return Err(Code::DeclaredTwice
-                    .at(message, name.span)
-                    .help("in C a peer has its name in capitals: give each another one"));
+                self.diagnostics.push(
+                    Code::DeclaredTwice
+                        .at(message, name.span)
+                        .help("in C a peer has its name in capitals: give each another one"),
+                );
+                continue;
             }
-            let starts_lower = name.text.starts_with(|c: char| c.is_ascii_lowercase());
-            if !starts_lower
-                || ["self", "any", "true", "false", "not", "mod"].contains(&name.text.as_str())
-            {
+            if !starts_lower || words.contains(&name.text.as_str()) {
                 let message = format!("`{}` cannot be the name of a peer", name.text);
-                return Err(Code::ReservedName
-                    .at(message, name.span)
-                    .help("it begins with a lower-case letter, and is no word of the language"));
+                self.diagnostics.push(
+                    Code::ReservedName
+                        .at(message, name.span.clone())
+                        .help("it begins with a lower-case letter, and is no word of the language"),
+                );
             }
             self.configuration.peers.push(name);
         }
