@@ -84,7 +84,7 @@ impl Report {
         for caught in &self.mutants {
             let how = if caught.is_caught() { "caught: " } else { "NOT CAUGHT; broken: " };
             let broken = caught.broken.join(", ");
-            _ = writeln!(text, "  {:<54}{how}{broken}", caught.mutant.name);
+            _ = writeln!(text, "  {:<55}{how}{broken}", caught.mutant.name);
         }
         let Coverage { outcomes, lines, .. } = &self.coverage;
         let chosen = self.coverage.chosen();
