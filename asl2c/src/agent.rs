@@ -23,6 +23,16 @@ pub enum ReadError {
     Configuration(#[from] TranslateError),
 }
 
+impl ReadError {
+    /// The error at the place that names the file.
+    fn at(self, place: impl FnOnce(&str) -> TranslateError) -> Self {
+        match self {
+            Self::File { source, .. } => Self::Configuration(place(&source.to_string())),
+            error @ Self::Configuration(_) => error,
+        }
+    }
+}
+
 /// Whether a file describes a system of agents, by its name.
 pub(crate) fn is_system(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == ENDING)
@@ -35,8 +45,9 @@ pub(crate) fn is_system(path: &Path) -> bool {
 pub fn read_system(path: &Path) -> Result<System, ReadError> {
     let parsed = parse_system(&path.display().to_string(), &read(path)?)?;
     let agents = parsed.agents().iter().map(|agent| {
-        let Agent { configuration, text, .. } =
-            Agent::read(&folder(path).join(&agent.configuration))?;
+        let path = folder(path).join(&agent.configuration);
+        let written = read(&path).map_err(|error| error.at(|why| parsed.unreadable(agent, why)))?;
+        let Agent { configuration, text, .. } = Agent::of(written, &path)?;
         Ok((configuration, text))
     });
     let agents = agents.collect::<Result<Vec<_>, ReadError>>()?;
@@ -63,9 +74,13 @@ impl Agent {
     /// # Errors
     /// If a file cannot be read, or the configuration has errors.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let written = read(path)?;
+        Self::of(read(path)?, path)
+    }
+
+    fn of(written: String, path: &Path) -> Result<Self, ReadError> {
         let configuration = parse_configuration(&path.display().to_string(), &written)?;
-        let text = read(&folder(path).join(configuration.input()))?;
+        let text = read(&folder(path).join(configuration.input()))
+            .map_err(|error| error.at(|why| configuration.unreadable(why)))?;
         Ok(Self { configuration, written, text, path: path.to_owned() })
     }
 

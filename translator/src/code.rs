@@ -51,6 +51,7 @@ codes! {
     Error NotAType "not-a-type" "words that are not a C type, or not one that is allowed there";
     Error StructField "struct-field" "a struct without fields, or with a field that is neither a number nor `bool`";
     Error FileName "file-name" "an output that C cannot include, or outside the output folder";
+    Error Unreadable "unreadable" "a file that is named and cannot be read";
     Error Overwrites "overwrites" "an output that would overwrite another file";
     Error WrongSignature "wrong-signature" "`updateBeliefs` declared with another signature";
     Error DeclaredTwice "declared-twice" "a name, section, setting or trigger that is declared twice";
@@ -126,6 +127,13 @@ impl Code {
             Severity::Warning => Diagnostic::warning(message, span).lint(self.name()),
         }
     }
+}
+
+/// An error at the path of a file that cannot be read.
+pub(crate) fn unreadable(path: &str, reason: &str, place: Span) -> Diagnostic {
+    Code::Unreadable
+        .at(format!("cannot read `{path}`: {reason}"), place)
+        .help("its path is relative to the folder of this file")
 }
 
 #[cfg(test)]

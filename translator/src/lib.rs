@@ -53,8 +53,8 @@ pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 pub use configuration::DeclaredProperty;
 use configuration::{Configuration, Instance};
 pub use counterexample::{CounterexampleStep, Move, UnderWay};
-use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
+use diagnostic::{Source, Span};
 pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise};
 pub use format::{format, format_system};
 use gather::gather;
@@ -91,9 +91,17 @@ impl ParsedConfiguration {
 
     /// An error at the value of a setting whose file would overwrite another one, with its message and help.
     pub fn overwrites(&self, setting: &str, message: &str, help: &str) -> TranslateError {
+        self.refused(setting, |place| Code::Overwrites.at(message, place).help(help))
+    }
+
+    /// An error at the name of the agent's text, which cannot be read for this reason.
+    pub fn unreadable(&self, reason: &str) -> TranslateError {
+        self.refused("input", |place| code::unreadable(self.input(), reason, place))
+    }
+
+    fn refused(&self, setting: &str, error: impl FnOnce(Span) -> Diagnostic) -> TranslateError {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
-        let found = vec![Code::Overwrites.at(message, place).help(help)];
-        TranslateError::Refused(gather([(found, self.source())]))
+        TranslateError::Refused(gather([(vec![error(place)], self.source())]))
     }
 
     /// The declarations of the configuration.
@@ -440,7 +448,7 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
         );
     }
     check_rust_names(configuration, &mut findings);
-    let mut check = |name: &str, kind: TypeKind, span: &diagnostic::Span| {
+    let mut check = |name: &str, kind: TypeKind, span: &Span| {
         if kind == TypeKind::Opaque {
             findings.push(
                 Code::RustBoundary

@@ -20,6 +20,7 @@ use diagnostic::{Diagnostic, Source, Span};
 pub use parser::{CHANNELS, SECTIONS, begins_system};
 
 use crate::TranslateError;
+use crate::code::unreadable;
 use crate::configuration::{ExternalTrigger, Property};
 use crate::gather::gather;
 use crate::syntax::ast::Name;
@@ -145,6 +146,12 @@ impl ParsedSystem {
     /// The properties of the whole.
     pub fn properties(&self) -> &[SystemProperty] {
         &self.declared.properties
+    }
+
+    /// An error at the configuration of this agent, which cannot be read for this reason.
+    pub fn unreadable(&self, agent: &Agent, reason: &str) -> TranslateError {
+        let found = unreadable(&agent.configuration, reason, agent.place.clone());
+        TranslateError::Refused(gather([(vec![found], self.source())]))
     }
 
     fn source(&self) -> Source<'_> {
