@@ -204,15 +204,15 @@ pub(super) struct Run {
     /// The agent's configuration, or a system of agents: a file NAME.system
     #[arg(value_name = "AGENT.CONF|NAME.SYSTEM")]
     pub(super) configuration: PathBuf,
-    /// Of a system: how many messages of a hundred are lost
-    #[arg(long, value_name = "PERCENT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
-    pub(super) loss: u32,
-    /// Of a system: how many rounds a message is late at most
-    #[arg(long, value_name = "ROUNDS", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1000))]
-    pub(super) delay: u32,
-    /// Of a system: start of the random numbers for losses and delays
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
-    pub(super) seed: u64,
+    /// Of a system: how many messages of a hundred are lost [default: 0]
+    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(0..=100))]
+    pub(super) loss: Option<u32>,
+    /// Of a system: how many rounds a message is late at most [default: 0]
+    #[arg(long, value_name = "ROUNDS", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(super) delay: Option<u32>,
+    /// Of a system: start of the random numbers for losses and delays [default: 1]
+    #[arg(long, value_name = "NUMBER")]
+    pub(super) seed: Option<u64>,
     /// Execute the lines of this file. If some begin with `>` it is a transcript: those lines are executed,
     /// and the lines between them are the expected output
     #[arg(long, value_name = "FILE")]

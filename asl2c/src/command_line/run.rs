@@ -31,19 +31,26 @@ fn converse(asked: &Run) -> Result<ExitCode, CommandError> {
         let conditions = conditions(asked, system.channels)?;
         return execute(asked, &mut SystemSession::new(&system, conditions)?);
     }
+    if asked.loss.is_some() || asked.delay.is_some() || asked.seed.is_some() {
+        let refused = "only the channels of a system have `--loss`, `--delay` and `--seed`";
+        return Err(CommandError::Usage(refused.to_owned()));
+    }
     let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
     execute(asked, &mut Session::new(&configuration, &text)?)
 }
 
 /// What the channels do, which is within their bounds.
 fn conditions(asked: &Run, channels: Channels) -> Result<NetworkConditions, CommandError> {
-    let conditions =
-        NetworkConditions { loss_percent: asked.loss, delay_rounds: asked.delay, seed: asked.seed };
+    let conditions = NetworkConditions {
+        loss_percent: asked.loss.unwrap_or(0),
+        delay_rounds: asked.delay.unwrap_or(0),
+        seed: asked.seed.unwrap_or(1),
+    };
     let refused = |what: String| Err(CommandError::Usage(what));
-    if asked.loss > 0 && channels.losses == Some(0) {
+    if conditions.loss_percent > 0 && channels.losses == Some(0) {
         return refused("the channels of this system lose nothing: leave `--loss` out".to_owned());
     }
-    if let Some(most) = channels.delay.filter(|most| asked.delay > *most) {
+    if let Some(most) = channels.delay.filter(|most| conditions.delay_rounds > *most) {
         return refused(format!("in this system a message is at most {most} rounds late"));
     }
     Ok(conditions)

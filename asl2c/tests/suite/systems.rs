@@ -531,7 +531,24 @@ fn losses_and_delays_are_the_same_for_the_same_seed_and_within_the_bounds() {
         let output = asl2c(&[&["run", path.to_str().unwrap()], options.as_slice()].concat());
         assert_eq!(output.status.code(), Some(1));
         assert!(said(&output).contains(message), "{}", said(&output));
+        // One agent has no channels.
+        let agent = folder.path().join("a.conf");
+        let output = asl2c(&[&["run", agent.to_str().unwrap()], options.as_slice()].concat());
+        assert_eq!(output.status.code(), Some(1));
+        assert!(said(&output).contains("only the channels of a system"), "{}", said(&output));
     }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_told_where_it_is_named() {
+    let folder = pair("agents { one: nowhere.conf; two: b.conf; };");
+    let path = folder.path().join("a.system");
+    let output = asl2c(&["run", path.to_str().unwrap()]);
+    assert!(said(&output).contains("a.system:1:15\n"), "{}", said(&output));
+    fs::remove_file(folder.path().join("a.asl")).unwrap();
+    let output = asl2c(&["run", folder.path().join("a.conf").to_str().unwrap()]);
+    assert!(said(&output).contains("a.conf:1:20\n"), "{}", said(&output));
+    assert!(said(&output).contains("error: cannot read `a.asl`: "), "{}", said(&output));
 }
 
 /// The same messages in other words have the same version, which the report shows.
