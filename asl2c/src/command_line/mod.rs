@@ -161,7 +161,8 @@ fn serve_editor() -> Result<ExitCode, CommandError> {
 fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {
     let json = is_json(&arguments.message_format);
     let agent = Agent::read(path)?;
-    let mut translation = translate(&agent.configuration, &agent.text)?;
+    let mut translation = translate(&agent.configuration, &agent.text)
+        .map_err(|error| without_unwanted(arguments, error))?;
     let warnings = warnings(arguments, &translation.warnings)?;
     let folder = arguments.output.as_deref().unwrap_or(agent.folder());
     let files = output::known_again(translation.files.clone());
@@ -186,6 +187,15 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
         return Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE });
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Errors without the warnings that are not asked for.
+fn without_unwanted(arguments: &Arguments, error: TranslateError) -> TranslateError {
+    let TranslateError::Refused(found) = error else { return error };
+    let kept = found.iter().filter(|one| {
+        one.severity == Severity::Error || !arguments.quiet && arguments.is_wanted(one.code)
+    });
+    TranslateError::Refused(found.with(kept.cloned().collect()))
 }
 
 /// The enabled warnings; an error if one is denied. Denied ones come first then, or alone if only errors are
@@ -215,6 +225,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Stale(_)
             | CommandError::Print { .. }
             | CommandError::Typed(_)
+            | CommandError::Usage(_)
             | CommandError::New(_)
             | CommandError::Output(OutputError::Write(_))
             | CommandError::Write(_)

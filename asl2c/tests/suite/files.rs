@@ -195,6 +195,24 @@ fn a_full_disk_changes_nothing() {
 }
 
 #[test]
+fn beside_an_error_only_warnings_that_are_asked_for_are_printed() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h; rust = r.rs;");
+    std::fs::write(place.path().join("a.asl"), AGENT.repeat(2)).unwrap();
+    for (options, warns) in [
+        (&[][..], true),
+        (&["-q"], false),
+        (&["-A", "all"], false),
+        (&["-A", "never-tried"], false),
+        (&["-A", "never-asked"], true),
+    ] {
+        let output = asl2c(place.path(), options);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(text.contains("Rust bindings need the agent's state"), "{text}");
+        assert_eq!(text.contains("warning"), warns, "{options:?}: {text}");
+    }
+}
+
+#[test]
 fn only_what_was_generated_and_is_unchanged_is_replaced() {
     let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = m;");
     let path = |name: &str| place.path().join(name);
