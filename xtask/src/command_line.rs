@@ -185,9 +185,6 @@ enum Command {
         /// agent, no report
         #[arg(long)]
         only_proofs: bool,
-        /// Do not compare the C with the agent's text, which takes half of the time
-        #[arg(long, conflicts_with = "only_proofs")]
-        no_comparison: bool,
         /// Build and run no tests: read what those have counted that are built in this target folder, with
         /// `AGENT_COVERAGE` set, once `target/coverage.lock` is free
         #[arg(long, value_name = "DIR", conflicts_with = "only_proofs")]
@@ -256,9 +253,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Soak(arguments) => soak::run(&arguments)?,
         Command::Verify { only_proofs: true, .. } => verify::proofs()?,
-        Command::Verify { no_comparison, counted, .. } => {
-            verify::run(!no_comparison, counted.as_deref())?
-        }
+        Command::Verify { counted, .. } => verify::run(counted.as_deref())?,
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
     })
