@@ -46,7 +46,7 @@ pub fn read_system(path: &Path) -> Result<System, ReadError> {
     let parsed = parse_system(&path.display().to_string(), &read(path)?)?;
     let agents = parsed.agents().iter().map(|agent| {
         let path = folder(path).join(&agent.configuration);
-        let written = read(&path).map_err(|error| error.at(|why| parsed.unreadable(agent, why)))?;
+        let written = read(&path).map_err(|error| error.at(|why| parsed.not_read(agent, why)))?;
         let Agent { configuration, text, .. } = Agent::of(written, &path)?;
         Ok((configuration, text))
     });
@@ -80,7 +80,7 @@ impl Agent {
     fn of(written: String, path: &Path) -> Result<Self, ReadError> {
         let configuration = parse_configuration(&path.display().to_string(), &written)?;
         let text = read(&folder(path).join(configuration.input()))
-            .map_err(|error| error.at(|why| configuration.unreadable(why)))?;
+            .map_err(|error| error.at(|why| configuration.not_read(why)))?;
         Ok(Self { configuration, written, text, path: path.to_owned() })
     }
 

@@ -51,7 +51,7 @@ codes! {
     Error NotAType "not-a-type" "words that are not a C type, or not one that is allowed there";
     Error StructField "struct-field" "a struct without fields, or with a field that is neither a number nor `bool`";
     Error FileName "file-name" "an output that C cannot include, or outside the output folder";
-    Error Unreadable "unreadable" "a file that is named and cannot be read";
+    Error NotRead "not-read" "a file that is named and cannot be read";
     Error Overwrites "overwrites" "an output that would overwrite another file";
     Error WrongSignature "wrong-signature" "`updateBeliefs` declared with another signature";
     Error DeclaredTwice "declared-twice" "a name, section, setting or trigger that is declared twice";
@@ -130,8 +130,8 @@ impl Code {
 }
 
 /// An error at the path of a file that cannot be read.
-pub(crate) fn unreadable(path: &str, reason: &str, place: Span) -> Diagnostic {
-    Code::Unreadable
+pub(crate) fn not_read(path: &str, reason: &str, place: Span) -> Diagnostic {
+    Code::NotRead
         .at(format!("cannot read `{path}`: {reason}"), place)
         .help("its path is relative to the folder of this file")
 }

@@ -95,8 +95,8 @@ impl ParsedConfiguration {
     }
 
     /// An error at the name of the agent's text, which cannot be read for this reason.
-    pub fn unreadable(&self, reason: &str) -> TranslateError {
-        self.refused("input", |place| code::unreadable(self.input(), reason, place))
+    pub fn not_read(&self, reason: &str) -> TranslateError {
+        self.refused("input", |place| code::not_read(self.input(), reason, place))
     }
 
     fn refused(&self, setting: &str, error: impl FnOnce(Span) -> Diagnostic) -> TranslateError {

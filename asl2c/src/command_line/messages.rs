@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use translator::{Diagnostics, Located, Severity, TranslateError};
+use translator::{Code, Diagnostics, Located, Severity, TranslateError};
 
 use super::CommandError;
 use crate::agent::ReadError;
@@ -27,12 +27,14 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Denied(found) => {
             format!("{}\n{}", lines(found), line("error", "denied", &denied(found), None))
         }
-        CommandError::Read(ReadError::File { path, .. }) => general("not-read", Some(path)),
+        CommandError::Read(ReadError::File { path, .. }) => {
+            general(Code::NotRead.name(), Some(path))
+        }
         CommandError::Output(OutputError::Write(error)) | CommandError::Write(error) => {
             general("not-written", Some(error.path()))
         }
         CommandError::Print { .. } => general("not-printed", None),
-        CommandError::Typed(_) => general("not-read", None),
+        CommandError::Typed(_) => general(Code::NotRead.name(), None),
         CommandError::Usage(_) => general("usage", None),
         CommandError::New(_) => general("not-made", None),
         CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {

@@ -22,7 +22,6 @@ pub(super) type Found = BTreeMap<PathBuf, Vec<translator::Diagnostic>>;
 
 /// A finding without a code of the translator.
 const NO_CONFIGURATION: &str = "no-configuration";
-const NOT_READ: &str = "not-read";
 
 /// All findings in some files, their agents and configurations.
 pub(super) fn look(files: &mut Files, changed: &BTreeSet<PathBuf>) -> Found {
@@ -143,7 +142,9 @@ fn member(
 fn has_errors(path: &Path, first: Option<&translator::Diagnostic>) -> translator::Diagnostic {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let (message, code) = first
-        .map_or(("it is no configuration", NOT_READ), |first| (first.message.as_str(), first.code));
+        .map_or(("it is no configuration", translator::Code::NotRead.name()), |first| {
+            (first.message.as_str(), first.code)
+        });
     translator::Diagnostic::error(format!("`{name}` has errors: {message}"), 0..0).code(code)
 }
 
@@ -204,7 +205,7 @@ fn not_read(files: &Files, path: &Path, error: &ReadError) -> Option<translator:
 }
 
 fn cannot_read(error: &ReadError) -> translator::Diagnostic {
-    translator::Diagnostic::error(error.to_string(), 0..0).code(NOT_READ)
+    translator::Diagnostic::error(error.to_string(), 0..0).code(translator::Code::NotRead.name())
 }
 
 fn at(mut found: translator::Diagnostic, place: Span) -> translator::Diagnostic {

@@ -20,7 +20,7 @@ use diagnostic::{Diagnostic, Source, Span};
 pub use parser::{CHANNELS, SECTIONS, begins_system};
 
 use crate::TranslateError;
-use crate::code::unreadable;
+use crate::code::not_read;
 use crate::configuration::{ExternalTrigger, Property};
 use crate::gather::gather;
 use crate::syntax::ast::Name;
@@ -149,8 +149,8 @@ impl ParsedSystem {
     }
 
     /// An error at the configuration of this agent, which cannot be read for this reason.
-    pub fn unreadable(&self, agent: &Agent, reason: &str) -> TranslateError {
-        let found = unreadable(&agent.configuration, reason, agent.place.clone());
+    pub fn not_read(&self, agent: &Agent, reason: &str) -> TranslateError {
+        let found = not_read(&agent.configuration, reason, agent.place.clone());
         TranslateError::Refused(gather([(vec![found], self.source())]))
     }
 
