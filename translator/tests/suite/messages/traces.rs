@@ -211,7 +211,7 @@ fn script(talker: &Talker, sequences: &[Vec<Command>], aborted: &str) -> (String
          static void show(int time) {{ clock_ms = time; }}\n\
          static void begin(peer_t me) {{ init(me); puts(\"init\"); }}\n\
          static int number(void) {{ int value = 0; return (scanf(\"%d\", &value) == 1) ? value : -1; }}\n\
-         int main(void)\n{{\nint a[4] = {{0}};\n(void)a;\n(void)answer;\nfor (;;) {{ switch (number()) {{\n"
+         int main(void)\n{{\nint a[4] = {{0}};\n(void)a;\n(void)answer;\n(void)show;\nfor (;;) {{ switch (number()) {{\n"
     );
     for (number, (call, types, is_answered)) in known.iter().enumerate() {
         _ = write!(text, "case {number}: ");
