@@ -11,6 +11,8 @@ use crate::types::{CType, TypeKind};
 
 /// Peers are numbered in a byte, and each message has memory for each of its senders.
 const MOST_PEERS: usize = 64;
+/// Words of the language, which no peer can have as its name.
+const NO_PEERS: [&str; 6] = ["self", "any", "true", "false", "not", "mod"];
 /// Goals of one sender that may wait.
 const MOST_WAITING: usize = 64;
 
@@ -21,8 +23,6 @@ impl Parser<'_> {
         for name in self.names(first, "a peer")? {
             let same = |other: &Name| other.text.eq_ignore_ascii_case(&name.text);
             let starts_lower = name.text.starts_with(|c: char| c.is_ascii_lowercase());
-            let words = ["self", "any", "true", "false", "not", "mod"];
-            // It is a peer nevertheless, so that what it says is no error.
             if self.configuration.peers.iter().any(same) {
                 let message = format!("a second peer `{}`", name.text);
                 self.diagnostics.push(
@@ -32,7 +32,8 @@ impl Parser<'_> {
                 );
                 continue;
             }
-            if !starts_lower || words.contains(&name.text.as_str()) {
+            // It is a peer nevertheless, so that what it says is no error.
+            if !starts_lower || NO_PEERS.contains(&name.text.as_str()) {
                 let message = format!("`{}` cannot be the name of a peer", name.text);
                 self.diagnostics.push(
                     Code::ReservedName

@@ -244,6 +244,16 @@ mod tests {
     }
 
     #[test]
+    fn a_wrong_name_of_a_peer_is_the_only_error() {
+        let text = format!(
+            "{MINIMAL} peers {{ self, q, Q, r }}; \
+             messages {{ tell seen from q, self; achieve go from r; }};"
+        );
+        let expected = ["`self` cannot be the name of a peer", "a second peer `Q`"];
+        assert_eq!(messages(&text), expected);
+    }
+
+    #[test]
     fn declarations_carry_their_types() {
         let text = format!(
             "{MINIMAL} includes {{\n  #include <stdbool.h>\n  #include \"types.h\" // ours\n}};\n\
