@@ -129,8 +129,8 @@ impl Code {
     }
 }
 
-/// An error at the path of a file that cannot be read.
-pub(crate) fn not_read(path: &str, reason: &str, place: Span) -> Diagnostic {
+/// An error at the place that names a file by this path, which cannot be read for this reason.
+pub fn not_read(path: &str, reason: &str, place: Span) -> Diagnostic {
     Code::NotRead
         .at(format!("cannot read `{path}`: {reason}"), place)
         .help("its path is relative to the folder of this file")

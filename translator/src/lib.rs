@@ -48,7 +48,7 @@ use std::collections::HashSet;
 pub use backend::c::{ROUNDED, include_path};
 pub use backend::matrix::TraceRow;
 use backend::rust::{OWN_TYPES, camel_case, snake_case, variant};
-pub use code::Code;
+pub use code::{Code, not_read};
 pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 pub use configuration::DeclaredProperty;
 use configuration::{Configuration, Instance};
@@ -96,7 +96,7 @@ impl ParsedConfiguration {
 
     /// An error at the name of the agent's text, which cannot be read for this reason.
     pub fn not_read(&self, reason: &str) -> TranslateError {
-        self.refused("input", |place| code::not_read(self.input(), reason, place))
+        self.refused("input", |place| not_read(self.input(), reason, place))
     }
 
     fn refused(&self, setting: &str, error: impl FnOnce(Span) -> Diagnostic) -> TranslateError {

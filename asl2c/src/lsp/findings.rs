@@ -201,7 +201,12 @@ fn no_configuration(agent: &Path) -> translator::Diagnostic {
 fn not_read(files: &Files, path: &Path, error: &ReadError) -> Option<translator::Diagnostic> {
     let settings = &files.get(path)?.configuration()?.tree.settings;
     let place = settings.places.get("input").cloned().unwrap_or_default();
-    Some(at(cannot_read(error), place))
+    Some(match error {
+        ReadError::File { source, .. } => {
+            translator::not_read(&settings.input, &source.to_string(), place)
+        }
+        error @ ReadError::Configuration(_) => at(cannot_read(error), place),
+    })
 }
 
 fn cannot_read(error: &ReadError) -> translator::Diagnostic {

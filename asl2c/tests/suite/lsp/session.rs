@@ -141,7 +141,9 @@ fn a_configuration_is_checked_with_its_agent() {
     client.replace(ROVER[0], 4, &configuration.replace("rover.asl", "missing.asl"));
     let found = client.diagnostics(ROVER[0], Some(4));
     assert_eq!(codes(&found), ["not-read"]);
-    assert!(found[0]["message"].as_str().unwrap().starts_with("cannot read "));
+    // As the command says it.
+    let message = found[0]["message"].as_str().unwrap();
+    assert!(message.starts_with("cannot read `missing.asl`: "), "{message}");
 }
 
 /// What the editor has counts, also for an agent that was open before.
