@@ -161,13 +161,21 @@ fn serve_editor() -> Result<ExitCode, CommandError> {
 fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {
     let json = is_json(&arguments.message_format);
     let agent = Agent::read(path)?;
-    let mut translation = translate(&agent.configuration, &agent.text)
-        .map_err(|error| without_unwanted(arguments, error))?;
-    let warnings = warnings(arguments, &translation.warnings)?;
+    let mut translation =
+        translate(&agent.configuration, &agent.text).map_err(|error| match error {
+            TranslateError::Refused(found) => {
+                TranslateError::Refused(printed_of(arguments, &found))
+            }
+            error => error,
+        })?;
+    let warnings = printed_of(arguments, &translation.warnings);
+    if warnings.has_errors() {
+        return Err(CommandError::Denied(warnings));
+    }
     let folder = arguments.output.as_deref().unwrap_or(agent.folder());
     let files = output::known_again(translation.files.clone());
     output::write(&agent, &files, folder, arguments.force)?;
-    if !warnings.is_empty() && !arguments.quiet {
+    if !warnings.is_empty() {
         complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
     if arguments.report {
@@ -189,31 +197,23 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
     Ok(ExitCode::SUCCESS)
 }
 
-/// Errors without the warnings that are not asked for.
-fn without_unwanted(arguments: &Arguments, error: TranslateError) -> TranslateError {
-    let TranslateError::Refused(found) = error else { return error };
-    let kept = found.iter().filter(|one| {
-        one.severity == Severity::Error || !arguments.quiet && arguments.is_wanted(one.code)
-    });
-    TranslateError::Refused(found.with(kept.cloned().collect()))
-}
-
-/// The enabled warnings; an error if one is denied. Denied ones come first then, or alone if only errors are
-/// printed.
-fn warnings(arguments: &Arguments, found: &Diagnostics) -> Result<Diagnostics, CommandError> {
-    let wanted = found.iter().filter(|warning| arguments.is_wanted(warning.code));
-    let (mut denied, others): (Vec<Diagnostic>, Vec<Diagnostic>) =
-        wanted.cloned().partition(|warning| arguments.is_denied(warning.code));
-    if denied.is_empty() {
-        return Ok(found.with(others));
+/// What is printed of errors and warnings: the errors first, denied warnings among them, then the other enabled warnings.
+fn printed_of(arguments: &Arguments, found: &Diagnostics) -> Diagnostics {
+    let is_error = |one: &Diagnostic| one.severity == Severity::Error;
+    let mut enabled: Vec<Diagnostic> = found
+        .iter()
+        .filter(|one| is_error(one) || arguments.is_wanted(one.code))
+        .cloned()
+        .collect();
+    for denied in enabled.iter_mut().filter(|one| arguments.is_denied(one.code)) {
+        denied.severity = Severity::Error;
     }
-    for warning in &mut denied {
-        warning.severity = Severity::Error;
-    }
+    let (mut errors, warnings): (Vec<Diagnostic>, Vec<Diagnostic>) =
+        enabled.into_iter().partition(is_error);
     if !arguments.quiet {
-        denied.extend(others);
+        errors.extend(warnings);
     }
-    Err(CommandError::Denied(found.with(denied)))
+    found.with(errors)
 }
 
 /// Prints an error. Returns the exit status.

@@ -204,11 +204,15 @@ fn beside_an_error_only_warnings_that_are_asked_for_are_printed() {
         (&["-A", "all"], false),
         (&["-A", "never-tried"], false),
         (&["-A", "never-asked"], true),
+        // A denied warning is an error, and printed as one.
+        (&["-q", "-D", "never-tried"], false),
     ] {
         let output = asl2c(place.path(), options);
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(text.contains("Rust bindings need the agent's state"), "{text}");
         assert_eq!(text.contains("warning"), warns, "{options:?}: {text}");
+        let is_told = warns || options.contains(&"-D");
+        assert_eq!(text.contains("a.asl:2:"), is_told, "{options:?}: {text}");
     }
 }
 

@@ -531,11 +531,14 @@ fn losses_and_delays_are_the_same_for_the_same_seed_and_within_the_bounds() {
         let output = asl2c(&[&["run", path.to_str().unwrap()], options.as_slice()].concat());
         assert_eq!(output.status.code(), Some(1));
         assert!(said(&output).contains(message), "{}", said(&output));
-        // One agent has no channels.
-        let agent = folder.path().join("a.conf");
-        let output = asl2c(&[&["run", agent.to_str().unwrap()], options.as_slice()].concat());
-        assert_eq!(output.status.code(), Some(1));
-        assert!(said(&output).contains("only the channels of a system"), "{}", said(&output));
+    }
+    // One agent has no channels.
+    let agent = folder.path().join("a.conf");
+    for option in ["--loss", "--delay", "--seed"] {
+        let output = asl2c(&["run", agent.to_str().unwrap(), option, "1"]);
+        assert_eq!(output.status.code(), Some(1), "{option}");
+        let said = said(&output);
+        assert!(said.starts_with("error: only the channels of a system"), "{option}: {said}");
     }
 }
 
