@@ -323,9 +323,10 @@ const LIMITS: &str = "
   the percept exceeds 10 s, the agent descends. That these times grow with the clock, and are not reset
   by a momentary arrival or blindness, is implemented in 40 lines (`Activity` in `autopilot/src/agent.rs`),
   and tested.
-  A clock of its own was tried: with a deadline of the take-off's goal in place of the percept the proof takes 2.7 times as
-  long (644 s of one core, 237 s before) and leaves `a_lost_station_lands` open, and `a_take_off_ends` could not be stated,
-  because properties compare beliefs and know no clock.
+  A clock of its own with a deadline of the take-off's goal was tried in place of the percept, and does not keep the properties:
+  a deadline passes to the goals that follow, so that it ends a landing that has begun (`landing_goes_on`); with an integer
+  clock its time can also overflow, after the take-off was ordered (`one_command`). SPIN shows both. And `a_take_off_ends`
+  could not be stated: properties compare beliefs and know no clock.
 - A stay is limited only by the plan's own time and the battery: a drone that drifts off starts it again, as long as there
   is time left to approach.
 - The model has no values, so in general it proves less than the C; here it proves the same.
