@@ -96,7 +96,7 @@ pub(crate) struct HandlerId(pub(crate) usize);
 pub(crate) struct BeliefId(pub(crate) usize);
 
 /// Index into [`Plan::variables`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct VariableId(pub(crate) usize);
 
 /// Index into the configuration's basics.

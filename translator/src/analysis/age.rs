@@ -7,7 +7,7 @@ use super::scope::Scope;
 use super::values::Resolved;
 use crate::code::Code;
 use crate::program::{BeliefId, Call, Condition, Operation, Value};
-use crate::syntax::ast::{Arithmetic, Atom, Expression, Relation};
+use crate::syntax::ast::{Arithmetic, Atom, Expression, Performative, Relation};
 
 impl Analysis<'_> {
     /// Checks that a peer tells a belief, and that there is a clock, if its age is asked for.
@@ -26,6 +26,23 @@ impl Analysis<'_> {
         }
     }
 
+    /// The time is kept of what any of the peers tells that the text allows as a source, also where what is known of a
+    /// variable leaves fewer: when the clock is called can be read off the text.
+    pub(super) fn keep_times(&mut self, atom: &Atom) {
+        if atom.age.as_deref().is_none_or(|age| matches!(age, Expression::Unnamed(_))) {
+            return;
+        }
+        let named = match atom.source.as_deref() {
+            Some(Expression::Atom(source)) => self.configuration.peer(&source.name.text),
+            _ => None,
+        };
+        let name = &atom.name.text;
+        let message = self.configuration.message(Performative::Tell, name);
+        let senders = message.into_iter().flat_map(|message| &message.senders);
+        let senders = senders.filter(|sender| named.is_none_or(|named| named == **sender));
+        self.timed.extend(senders.map(|sender| (name.clone(), *sender)));
+    }
+
     /// The condition that a belief that a peer tells has this age; what may be anything is no condition.
     pub(super) fn aged(
         &mut self,
@@ -41,7 +58,7 @@ impl Analysis<'_> {
             right: Value::ToldAt(belief),
             ctype: ctype.clone(),
         }));
-        let condition = match age {
+        Ok(Some(match age {
             Expression::Unnamed(_) => return Ok(None),
             Expression::Variable(name) if scope.lookup(&name.text).is_none() => {
                 Condition::Bind { variable: scope.bind(name, &ctype), value: elapsed }
@@ -52,9 +69,7 @@ impl Analysis<'_> {
                 left: elapsed,
                 ctype,
             },
-        };
-        self.timed.insert(belief);
-        Ok(Some(condition))
+        }))
     }
 }
 

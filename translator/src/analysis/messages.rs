@@ -141,7 +141,7 @@ impl Analysis<'_> {
             let removed = handler(self, Operator::Delete, TriggerKind::Belief);
             for sender in &message.senders {
                 let belief = self.told_belief(name, *sender, &message.parameters);
-                let (timed, name) = (self.timed.contains(&belief), name.clone());
+                let (timed, name) = (self.timed.contains(&(name.clone(), *sender)), name.clone());
                 told.push(Told { name, sender: *sender, belief, added, removed, timed });
             }
         }
@@ -334,7 +334,8 @@ impl Analysis<'_> {
             self.check_source(source, Performative::Tell, name)?;
         }
         self.check_age(atom)?;
-        let sources = self.sources(atom);
+        self.keep_times(atom);
+        let sources = self.sources(atom, scope);
         if let [only] = sources.as_slice() {
             self.told_by(*only, atom, &types, scope, conjunction)?;
             return self.conjunction(rest, scope, conjunction);
@@ -365,26 +366,39 @@ impl Analysis<'_> {
     }
 
     /// Who may have told a belief, one's own first.
-    fn sources(&self, atom: &Atom) -> Vec<Source> {
+    fn sources(&self, atom: &Atom, scope: &Scope) -> Vec<Source> {
         let name = &atom.name.text;
         let message = self.configuration.message(Performative::Tell, name);
         let peers = message.into_iter().flat_map(|message| &message.senders);
         // What is one's own has no age.
         let is_own = self.own.contains(name) && atom.age.is_none();
         let own = is_own.then_some(Source::Own);
-        let all = own.into_iter().chain(peers.map(|number| Source::Peer(*number)));
-        let wanted = match atom.source.as_deref() {
-            Some(Expression::Atom(source)) => self.named_source(source),
-            _ => None,
-        };
-        // One's own is also that of one's own name.
-        let fits = |source: &Source| match (wanted, source) {
-            (None, _) | (Some(Source::Peer(_)), Source::Own) => true,
-            (Some(wanted), source) => wanted == *source,
-        };
-        let found: Vec<Source> = all.filter(fits).collect();
-        // What is never believed is asked for as any other belief that is not.
-        if found.is_empty() { vec![Source::Own] } else { found }
+        let mut all = own.into_iter().chain(peers.map(|number| Source::Peer(*number)));
+        let fits = |source: &Source| self.fits(*source, atom.source.as_deref(), scope);
+        let found: Vec<Source> = all.clone().filter(fits).collect();
+        if found.is_empty() {
+            // What is never believed is asked for as any other belief that is not.
+            let asked = if atom.age.is_some() { all.next() } else { None };
+            return vec![asked.unwrap_or(Source::Own)];
+        }
+        found
+    }
+
+    /// Whether what comes from this source may be what is asked for.
+    fn fits(&self, source: Source, wanted: Option<&Expression>, scope: &Scope) -> bool {
+        match wanted {
+            Some(Expression::Atom(name)) => match self.named_source(name) {
+                // One's own is also that of one's own name.
+                Some(Source::Peer(_)) if source == Source::Own => true,
+                named => named == Some(source),
+            },
+            // Who told something is nobody else, and not the agent itself: nobody hears what he tells himself.
+            Some(Expression::Variable(name)) => {
+                let known = scope.known(&name.text);
+                known.is_none_or(|known| *known == source.value(&self.configuration))
+            }
+            _ => true,
+        }
     }
 
     /// The conditions that the belief matches and comes from this source.
@@ -408,10 +422,17 @@ impl Analysis<'_> {
             None | Some(Expression::Unnamed(_)) => {}
             Some(Expression::Variable(name)) if scope.lookup(&name.text).is_none() => {
                 let variable = scope.bind(name, &CType::peer());
+                scope.know(variable, found.clone());
                 conjunction.push(Condition::Bind { variable, value: found });
+            }
+            Some(Expression::Variable(name)) if scope.known(&name.text) == Some(&found) => {
+                scope.decide_by(&name.text);
             }
             Some(wanted) => {
                 let wanted = self.value(wanted, &CType::peer(), scope)?;
+                if let Value::Variable(variable) = wanted {
+                    scope.know(variable, found.clone());
+                }
                 if wanted != found {
                     conjunction.push(equal(found, wanted));
                 }
@@ -434,6 +455,7 @@ impl Analysis<'_> {
         match name {
             Expression::Variable(variable) if scope.lookup(&variable.text).is_none() => {
                 let variable = scope.bind(variable, &CType::peer());
+                scope.know(variable, Value::Me);
                 Ok(Condition::Bind { variable, value: Value::Me })
             }
             other => {

@@ -170,8 +170,8 @@ struct Analysis<'a> {
     own: HashSet<String>,
     /// Ways to choose the sources of the context that is being resolved.
     searched: usize,
-    /// Beliefs of peers whose age is asked for.
-    timed: HashSet<BeliefId>,
+    /// Beliefs whose age is asked for, and the numbers of the peers that tell them.
+    timed: HashSet<(String, usize)>,
     clock: Option<Clock>,
     /// Offset of each line.
     line_starts: Vec<usize>,

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use diagnostic::{Diagnostic, Span};
 
 use crate::code::Code;
-use crate::program::{Variable, VariableId};
+use crate::program::{Value, Variable, VariableId};
 use crate::syntax::ast::{Expression, Name};
 use crate::types::CType;
 
@@ -28,6 +28,10 @@ pub(super) struct Scope {
     /// Variables that every branch of an alternative binds: the one visible afterwards, and those of the
     /// branches.
     exports: Vec<(VariableId, Vec<VariableId>)>,
+    /// The values that variables have in this branch.
+    known: Vec<(VariableId, Value)>,
+    /// Variables that decide what is translated, so that the translation need not read them.
+    decisive: HashSet<VariableId>,
 }
 
 /// An error that is not reported, because it is the consequence of another one.
@@ -35,9 +39,12 @@ pub(super) fn said_already() -> Diagnostic {
     Diagnostic::error(String::new(), 0..0)
 }
 
-/// Number of visible variables at the start of a negation or an alternative.
+/// Numbers of visible variables and of known values at the start of a negation or an alternative.
 #[derive(Clone, Copy)]
-pub(super) struct Mark(usize);
+pub(super) struct Mark {
+    visible: usize,
+    known: usize,
+}
 
 impl Scope {
     pub(super) fn lookup(&self, name: &str) -> Option<VariableId> {
@@ -118,18 +125,36 @@ impl Scope {
     }
 
     pub(super) fn mark(&self) -> Mark {
-        Mark(self.visible.len())
+        Mark { visible: self.visible.len(), known: self.known.len() }
     }
 
     /// The bindings since the mark.
     pub(super) fn bound_since(&self, mark: Mark) -> Vec<(String, VariableId)> {
-        self.visible[mark.0..].to_vec()
+        self.visible[mark.visible..].to_vec()
     }
 
     /// Hides the bindings since the mark.
     pub(super) fn leave(&mut self, mark: Mark) {
-        let hidden = self.visible.drain(mark.0..).map(|(name, _)| name);
+        let hidden = self.visible.drain(mark.visible..).map(|(name, _)| name);
         self.hidden.extend(hidden);
+        self.known.truncate(mark.known);
+    }
+
+    /// From here to the end of the branch the variable has this value.
+    pub(super) fn know(&mut self, variable: VariableId, value: Value) {
+        self.known.push((variable, value));
+    }
+
+    /// The value that is known of a variable.
+    pub(super) fn known(&self, name: &str) -> Option<&Value> {
+        let id = self.lookup(name)?;
+        self.known.iter().find(|(known, _)| *known == id).map(|(_, value)| value)
+    }
+
+    /// The variable's known value has decided what is translated.
+    pub(super) fn decide_by(&mut self, name: &str) {
+        let id = self.lookup(name);
+        self.decisive.extend(id);
     }
 
     /// A variable that stands for those of the branches of an alternative.
@@ -188,7 +213,8 @@ impl Scope {
             .zip(&self.bound_at)
             .enumerate()
             .filter(move |(index, (variable, _))| {
-                !variable.used && !variable.source.is_empty() && !exported(*index)
+                let used = variable.used || self.decisive.contains(&VariableId(*index));
+                !used && !variable.source.is_empty() && !exported(*index)
             })
             .map(|(_, pair)| pair)
             .map(|(variable, span)| (variable.source.as_str(), span))
