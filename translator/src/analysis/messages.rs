@@ -415,17 +415,42 @@ impl Analysis<'_> {
             Source::Peer(number) => self.told_belief(&atom.name.text, number, types),
         };
         self.beliefs[belief.0].asked_at.get_or_insert(atom.span.clone());
+        let found = source.value(&self.configuration);
+        // Who is known already is compared before the arguments are evaluated, and who is not is known from them on.
+        let is_known = atom.source.as_deref().is_some_and(|source| match source {
+            Expression::Variable(name) => scope.lookup(&name.text).is_some(),
+            _ => true,
+        });
+        if is_known {
+            self.from(&found, atom, scope, conjunction)?;
+        }
         let patterns = self.patterns(atom, types, scope)?;
         conjunction.push(Condition::Holds { belief, patterns });
-        let found = source.value(&self.configuration);
+        if !is_known {
+            self.from(&found, atom, scope, conjunction)?;
+        }
+        if let Some(age) = &atom.age {
+            conjunction.extend(self.aged(belief, age, scope)?);
+        }
+        Ok(())
+    }
+
+    /// The condition that a belief comes from whom it asks for.
+    fn from(
+        &mut self,
+        found: &Value,
+        atom: &Atom,
+        scope: &mut Scope,
+        conjunction: &mut Vec<Condition>,
+    ) -> Resolved<()> {
         match atom.source.as_deref() {
             None | Some(Expression::Unnamed(_)) => {}
             Some(Expression::Variable(name)) if scope.lookup(&name.text).is_none() => {
                 let variable = scope.bind(name, &CType::peer());
                 scope.know(variable, found.clone());
-                conjunction.push(Condition::Bind { variable, value: found });
+                conjunction.push(Condition::Bind { variable, value: found.clone() });
             }
-            Some(Expression::Variable(name)) if scope.known(&name.text) == Some(&found) => {
+            Some(Expression::Variable(name)) if scope.known(&name.text) == Some(found) => {
                 scope.decide_by(&name.text);
             }
             Some(wanted) => {
@@ -433,13 +458,10 @@ impl Analysis<'_> {
                 if let Value::Variable(variable) = wanted {
                     scope.know(variable, found.clone());
                 }
-                if wanted != found {
-                    conjunction.push(equal(found, wanted));
+                if wanted != *found {
+                    conjunction.push(equal(found.clone(), wanted));
                 }
             }
-        }
-        if let Some(age) = &atom.age {
-            conjunction.extend(self.aged(belief, age, scope)?);
         }
         Ok(())
     }

@@ -304,13 +304,22 @@ impl Interpreter {
         let told =
             told.filter(|(sender, _)| named.as_ref().is_none_or(|named| *named == peer(*sender)));
         for (sender, values) in own.into_iter().chain(told) {
+            let found = peer(sender);
+            // Who is known already is compared before the arguments are evaluated.
             let mut theta = theta.clone();
+            let source = atom.source.as_deref();
+            let is_known = match source {
+                Some(Expression::Variable(name)) => theta.get(&name.text).is_some(),
+                _ => true,
+            };
             let mut matches = || {
+                if let Some(source) = source.filter(|_| is_known) {
+                    self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)?;
+                }
                 for ((pattern, value), ctype) in atom.arguments.iter().zip(values).zip(&types) {
                     self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
                 }
-                if let Some(source) = &atom.source {
-                    let found = peer(sender);
+                if let Some(source) = source.filter(|_| !is_known) {
                     self.match_pattern(source, &found, &CType::peer(), &mut theta, environment)?;
                 }
                 match &atom.age {
