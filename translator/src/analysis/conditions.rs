@@ -38,10 +38,13 @@ impl Analysis<'_> {
             if let Some(told) = self.told(part) {
                 return self.search(told, &parts[index + 1..], scope, conjunction);
             }
-            let resolved = self.condition(part, scope);
-            match resolved {
+            match self.condition(part, scope) {
                 Err(error) if parts.len() == 1 => return Err(error),
-                resolved => conjunction.extend(self.report(resolved)),
+                Err(error) => {
+                    scope.break_unbound(part);
+                    self.error(error);
+                }
+                Ok(condition) => conjunction.push(condition),
             }
         }
         Ok(())

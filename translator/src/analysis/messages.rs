@@ -556,6 +556,9 @@ pub(super) fn check_peers_differ(left: &Value, right: &Value, span: &Span) -> Re
                 .at("the result is the same for every agent", span.clone())
                 .help("compare with a variable or with the result of a function"))
         }
+        (Value::Variable(left), Value::Variable(right)) if left == right => {
+            Err(Code::ConstantComparison.at("a value is compared with itself", span.clone()))
+        }
         _ => Ok(()),
     }
 }

@@ -268,6 +268,9 @@ impl Analysis<'_> {
         let mut context = Vec::new();
         if let Some(expression) = &plan.context {
             let resolved = self.conditions(expression, &mut scope, &mut context);
+            if resolved.is_err() {
+                scope.break_unbound(expression);
+            }
             self.report(resolved);
         }
         let arguments = if plan.body.iter().any(|f| matches!(f, Formula::Wait { .. })) {

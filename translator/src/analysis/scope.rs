@@ -115,6 +115,17 @@ impl Scope {
         self.broken.insert(name.text.clone());
     }
 
+    /// The variables of an expression with an error would have values: where they are used is no second one.
+    pub(super) fn break_unbound(&mut self, expression: &Expression) {
+        let mut unbound = Vec::new();
+        expression.for_each_variable(&mut |name| {
+            if self.lookup(&name.text).is_none() {
+                unbound.push(name.text.clone());
+            }
+        });
+        self.broken.extend(unbound);
+    }
+
     /// Whether an expression is unresolved only because of a broken variable.
     pub(super) fn is_broken(&self, expression: &Expression) -> bool {
         let mut broken = false;

@@ -583,3 +583,20 @@ s: within(1, +b[source(bob)], act, unless -d[source(ann)]); t: within(1, +!gi[so
         assert!(found.iter().any(|found| found.message == expected), "{text}: {found:?}");
     }
 }
+
+/// What would have a value without an error in the context is no second error.
+#[test]
+fn an_error_in_a_context_is_the_only_one() {
+    for (context, expected) in [
+        ("b(X)[source(zed)] & b(Y)", "`zed` is not a peer"),
+        ("b(Y) & b(X)[source(3)]", "this is not a peer"),
+        ("b(X)[age(Y)]", "the agent has no clock"),
+        ("c & gone(X, Y)", "`gone` is not declared"),
+    ] {
+        let agent = format!("!g. +!g : {context} <- act(X); act(Y). -!g <- act(1).");
+        let rendered =
+            refused_with("peers { ann, bob }; messages { tell b(int) from any; };", agent.leak());
+        let errors = rendered.lines().filter_map(|line| line.strip_prefix("error: "));
+        assert_eq!(errors.collect::<Vec<_>>(), [expected], "{context}");
+    }
+}
