@@ -112,6 +112,17 @@ pub(crate) fn read(path: &Path) -> Result<String, ReadError> {
     if bytes.len() as u64 > MOST {
         return Err(failed(std::io::Error::other("it has more than 16 MB")));
     }
-    // Invalid UTF-8 becomes a character that the lexer refuses, with line and column.
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    text(bytes).map_err(failed)
+}
+
+/// Bytes as text. Others than those of UTF-8 would be translated, or written back, as something else.
+pub(crate) fn text(bytes: Vec<u8>) -> std::io::Result<String> {
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(error.as_bytes().get(..valid).unwrap_or_default());
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        let what = format!("line {line}, column {column} is not UTF-8");
+        std::io::Error::new(std::io::ErrorKind::InvalidData, what)
+    })
 }

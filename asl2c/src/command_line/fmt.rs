@@ -9,7 +9,7 @@ use translator::{format, format_system};
 
 use super::arguments::{Fmt, is_json};
 use super::{CommandError, complain, print};
-use crate::agent::{ReadError, is_system};
+use crate::agent::{self, ReadError, is_system};
 use crate::written::rewrite;
 
 /// Formats each file. The others are formatted if one fails.
@@ -52,13 +52,12 @@ fn one(path: &Path, check: bool) -> Result<bool, CommandError> {
     Ok(true)
 }
 
-/// Unlike for a translation, bytes that are not UTF-8 are an error: they would be lost.
 fn read(path: &Path, piped: bool) -> Result<String, ReadError> {
-    let read = if piped {
-        let mut text = String::new();
-        std::io::stdin().lock().read_to_string(&mut text).map(|_| text)
-    } else {
-        std::fs::read_to_string(path)
-    };
+    if !piped {
+        return agent::read(path);
+    }
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    let read = read.and_then(|_| agent::text(bytes));
     read.map_err(|source| ReadError::File { path: path.to_owned(), source })
 }

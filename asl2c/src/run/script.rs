@@ -357,7 +357,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// A string after its opening quote; `\"` and `\\` are escapes.
+    /// A string after its opening quote, with the escapes of agents.
     fn text(&mut self) -> Result<Value, Diagnostic> {
         let start = self.at;
         let mut text = String::new();
@@ -368,7 +368,17 @@ impl<'a> Parser<'a> {
                     self.at = start + index + 1;
                     return Ok(Value::Text(text));
                 }
-                '\\' => text.extend(characters.next().map(|(_, character)| character)),
+                '\\' => text.push(match characters.next() {
+                    Some((_, same @ ('"' | '\\'))) => same,
+                    Some((_, 'n')) => '\n',
+                    Some((_, 't')) => '\t',
+                    other => {
+                        let length = other.map_or(0, |(_, character)| character.len_utf8());
+                        let span = start + index..start + index + 1 + length;
+                        return Err(Diagnostic::error("unknown escape in a text", span)
+                            .help("the escapes are `\\\"`, `\\\\`, `\\n` and `\\t`"));
+                    }
+                }),
                 _ => text.push(character),
             }
         }

@@ -76,10 +76,10 @@ impl Environment for World {
             self.sent.push((*performative, about.clone(), arguments.to_vec()));
         }
         if result.kind == TypeKind::Void {
-            // In the form of the guide's transcripts.
+            // In the form of the guide's transcripts: texts without quotation marks.
             let arguments: Vec<String> = (arguments.iter())
                 .map(|value| match value {
-                    Value::Text(text) => text.clone(),
+                    Value::Text(text) => on_one_line(text),
                     value => value.to_string(),
                 })
                 .collect();
@@ -98,4 +98,17 @@ impl Environment for World {
     fn story(&mut self) -> Option<&mut Vec<CounterexampleStep>> {
         Some(&mut self.story)
     }
+}
+
+/// A text as it is shown: with the escapes of agents, so that no line of it is taken for another one of a transcript.
+fn on_one_line(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\\' => shown.push_str("\\\\"),
+            character if character.is_control() => shown.extend(character.escape_default()),
+            character => shown.push(character),
+        }
+    }
+    shown
 }

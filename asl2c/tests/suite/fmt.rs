@@ -129,3 +129,14 @@ fn a_new_agent_is_formatted() {
     );
     assert!(fmt(folder.path(), &["--check", "pilot/pilot.asl"], "").status.success());
 }
+
+/// Translated or written back, they would be others.
+#[test]
+fn other_bytes_than_those_of_utf8_are_told_with_their_place() {
+    let folder = folder();
+    std::fs::write(folder.path().join("a.asl"), b"// \xc3\xa9\n// \xc3\xa9 \xe9").unwrap();
+    let output = fmt(folder.path(), &["a.asl"], "");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("cannot read a.asl: line 2, column 6 is not UTF-8"), "{said}");
+    assert_eq!(output.status.code(), Some(1));
+}

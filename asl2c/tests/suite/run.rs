@@ -231,3 +231,21 @@ fn no_line_ends_a_session() {
     }
     assert!(fine > 100, "{fine}");
 }
+
+/// Otherwise a line of a text would be one of the transcript, or a command.
+#[test]
+fn texts_are_shown_and_read_with_the_escapes_of_agents() {
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void say(const char *); };\ntypes { go(const char *); };\ntriggerables { +!go; };";
+    let agent = r#"+!go(X) <- say("one\n> quit\t\\"); say(X)."#;
+    let parsed = parse_configuration("a.conf", configuration).unwrap();
+    let mut session = Session::new(&parsed, agent).unwrap();
+    let script = concat!(r#"achieve_go("a\nb\t\"c\"\\"); step"#, "\n");
+    let shown = [r"say(one\n> quit\t\\)", r#"say(a\nb\t"c"\\)"#];
+    assert_eq!(session.execute(script.trim_end()).unwrap(), shown);
+    let transcript = replay(&mut Session::new(&parsed, agent).unwrap(), "a.script", script);
+    let again = replay(&mut Session::new(&parsed, agent).unwrap(), "a", &transcript.shown);
+    assert!(transcript.is_fine() && again.is_fine(), "{}", again.shown);
+    let error = session.execute(r#"achieve_go("a\r")"#).unwrap_err();
+    assert_eq!((&*error.message, error.span), ("unknown escape in a text", 13..15));
+}

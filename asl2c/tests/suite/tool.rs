@@ -124,13 +124,16 @@ fn all_lines_of_json_are_alike() {
     let wrong = |folder: &Path| std::fs::write(folder.join("a.asl"), "+!light <- off.").unwrap();
     let unread = |folder: &Path| std::fs::write(folder.join("a.conf"), "settings { }").unwrap();
     let blocked = |folder: &Path| std::fs::create_dir(folder.join("a.c")).unwrap();
-    let cases: [Case<'_>; 10] = [
+    let latin =
+        |folder: &Path| std::fs::write(folder.join("a.asl"), b"+!light <- off.\n// \xe9").unwrap();
+    let cases: [Case<'_>; 11] = [
         (&[], &|_| {}, "no-plan", 0),
         (&["-D", "warnings"], &|_| {}, "no-plan", 1),
         (&[], &no_agent, "not-read", 1),
         (&[], &wrong, "not-declared", 1),
         (&[], &unread, "missing-setting", 1),
         (&[], &blocked, "not-written", 1),
+        (&[], &latin, "not-read", 1),
         (&["verify"], &|_| {}, "not-checked", 3),
         (&["verify", "-q"], &no_agent, "not-read", 3),
         (&["verify"], &wrong, "not-declared", 3),
