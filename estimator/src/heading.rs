@@ -19,9 +19,11 @@ const STUCK_DEG: f64 = 0.5;
 /// Covers the delay of the velocity at 200 packets per second.
 const MEMORY: usize = 64;
 
-/// Unwrapped headings, relative to the first, with their times of measurement.
+/// Unwrapped headings, from that of the start, with their times of measurement.
 #[derive(Debug, Clone)]
 pub(crate) struct Heading {
+    /// The heading at the start.
+    start_deg: f64,
     baseline_deg: Option<f64>,
     measured: VecDeque<(f64, f64)>,
     /// Turn rate predicted from the sticks, at the newest measurement.
@@ -31,8 +33,9 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(start_deg: f64) -> Self {
         Self {
+            start_deg,
             baseline_deg: None,
             measured: VecDeque::with_capacity(MEMORY),
             turn_deg_s: 0.0,
@@ -51,7 +54,7 @@ impl Heading {
         airframe: &Airframe,
         limits: &DroneLimits,
     ) -> bool {
-        let baseline_deg = *self.baseline_deg.get_or_insert(compass_deg);
+        let baseline_deg = *self.baseline_deg.get_or_insert(compass_deg - self.start_deg);
         let last = self.measured.back().copied();
         if last.is_some_and(|(last_s, _)| at_s < last_s) {
             return false;
@@ -172,7 +175,7 @@ impl Heading {
                 from + model.turned(self.turn_deg_s, *from_s, time_s).1
             }
             (None, Some((_, first))) => *first,
-            (None, None) => 0.0,
+            (None, None) => self.start_deg,
         }
     }
 
@@ -214,7 +217,7 @@ impl Heading {
 
     /// The newest measured heading.
     pub(crate) fn newest_deg(&self) -> f64 {
-        self.measured.back().map_or(0.0, |(_, deg)| *deg)
+        self.measured.back().map_or(self.start_deg, |(_, deg)| *deg)
     }
 
     /// The turn rate at the newest measurement, predicted from the sticks.

@@ -135,6 +135,19 @@ pub struct EstimatorConfig {
     pub identify: bool,
     /// Use of roundels on the floor, if any.
     pub tags: Option<TagConfig>,
+    /// Where the drone stands in the world at the start. Otherwise the world begins there.
+    pub start: Option<Start>,
+}
+
+/// Where a drone stands at the start, in a world that it shares with others.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Start {
+    /// Its place: right and forward.
+    pub place_m: Vector2<f64>,
+    /// Its heading, clockwise.
+    pub heading_deg: f64,
+    /// Standard deviation of the place on the worse axis.
+    pub deviation_m: f64,
 }
 
 impl Default for EstimatorConfig {
@@ -151,6 +164,7 @@ impl Default for EstimatorConfig {
             disturbance_max_m_s2: 4.0,
             identify: true,
             tags: None,
+            start: None,
         }
     }
 }
@@ -245,10 +259,11 @@ const MAX_PREDICTION_S: f64 = 0.6;
 impl Estimator {
     /// An estimator without samples.
     pub fn new(config: EstimatorConfig) -> Self {
+        let start = config.start.unwrap_or_default();
         Self {
             clock: SampleClock::default(),
             orders: Orders::new(config.dead_time),
-            heading: Heading::new(),
+            heading: Heading::new(start.heading_deg),
             horizontal: Horizontal::default(),
             velocity_at_s: None,
             last_velocity_m_s: None,
@@ -267,7 +282,7 @@ impl Estimator {
             airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
-            world: Box::new(World::new(config.tags.as_ref())),
+            world: Box::new(World::new(config.tags.as_ref(), &start)),
             config,
         }
     }

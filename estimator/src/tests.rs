@@ -106,6 +106,44 @@ fn a_very_long_gap_is_not_filled_with_motion() {
     assert!(estimate.position_m.y <= 3.0 + 1e-6);
 }
 
+/// A curve from one start, measured and predicted, is that from another, moved and turned.
+#[test]
+fn a_flight_begins_where_and_as_the_drone_stands_at_the_start() {
+    let start = Start { place_m: Vector2::new(3.0, -2.0), heading_deg: 120.0, ..Start::default() };
+    let config = EstimatorConfig { start: Some(start), ..EstimatorConfig::default() };
+    let (mut origin, mut there) = (Estimator::default(), Estimator::new(config));
+    let curve = (0..=90_u32).map(|i| {
+        let forward_m_s = (0.02 * f64::from(i)).min(1.0);
+        sample(66 * u64::from(i), 0.6 * f64::from(i), forward_m_s, 0.2)
+    });
+    for sample in curve.enumerate().map(alive) {
+        origin.update(&sample);
+        there.update(&sample);
+        for at in [sample.arrival, sample.arrival + Duration::from_millis(200)] {
+            let (origin, there) = (origin.predicted(at), there.predicted(at));
+            let turned = |vector| world_from_body(vector, start.heading_deg);
+            let expected_m = turned(origin.position_m.xy()) + start.place_m;
+            assert!((there.position_m.xy() - expected_m).norm() < 1e-6, "{there:?}");
+            let expected_m_s = turned(origin.velocity_m_s.xy());
+            assert!((there.velocity_m_s.xy() - expected_m_s).norm() < 1e-6, "{there:?}");
+            assert!(wrap_deg(there.yaw_deg - origin.yaw_deg - start.heading_deg).abs() < 1e-6);
+        }
+    }
+    let (origin, there) = (origin.estimate(), there.estimate());
+    assert!(origin.position_m.norm() > 3.0, "{origin:?}");
+    assert!((there.position_m.z - origin.position_m.z).abs() < 1e-9);
+}
+
+#[test]
+fn a_start_is_known_as_well_as_it_was_surveyed() {
+    let deviation_m = |deviation_m| {
+        let start = Start { deviation_m, ..Start::default() };
+        let config = EstimatorConfig { start: Some(start), ..EstimatorConfig::default() };
+        Estimator::new(config).horizontal_deviation_m(Duration::ZERO)
+    };
+    assert!((deviation_m(0.4).powi(2) - deviation_m(0.0).powi(2) - 0.16).abs() < 1e-9);
+}
+
 const PERIOD: Duration = Duration::from_micros(62_500);
 
 /// An estimator, and the packets that it receives every sixteenth of a second. A packet shows the drone as it

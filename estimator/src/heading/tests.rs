@@ -6,7 +6,7 @@ use kinematics::Sticks;
 fn turning() -> (Heading, Orders) {
     let mut orders = Orders::new(Duration::ZERO);
     orders.push(Duration::ZERO, Order::Sticks(Sticks { yaw: 0.5, ..Sticks::default() }));
-    let mut heading = Heading::new();
+    let mut heading = Heading::new(0.0);
     let (airframe, limits) = (Airframe::default(), DroneLimits::default());
     // 50 degrees per second from 171 degrees, across the wrap.
     for i in 0..=30 {
@@ -56,7 +56,7 @@ const LIMITS: DroneLimits = DroneLimits { tilt_rad: 0.2, climb_m_s: 0.7, turn_de
 
 /// A heading with these measurements, and orders that ask for nothing.
 fn measured(measured: &[(f64, f64)]) -> (Heading, Orders, Vec<bool>) {
-    let (mut heading, orders) = (Heading::new(), Orders::new(Duration::ZERO));
+    let (mut heading, orders) = (Heading::new(0.0), Orders::new(Duration::ZERO));
     let steps = measured
         .iter()
         .map(|(at_s, deg)| heading.update(*at_s, *deg, &orders, &Airframe::default(), &LIMITS))
@@ -128,7 +128,7 @@ fn turns_from(sticks: &[(u64, f64)]) -> (Heading, Orders) {
         let sticks = Sticks { yaw: *yaw, ..Sticks::default() };
         orders.push(Duration::from_millis(*at_ms), Order::Sticks(sticks));
     }
-    (Heading::new(), orders)
+    (Heading::new(0.0), orders)
 }
 
 /// The compass is right, but the drone does not do what the prediction expects.

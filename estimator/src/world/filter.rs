@@ -12,6 +12,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
+use crate::Start;
 use crate::sensor::{FLOW_SCALE, GATE, ORIENTATION_DEG};
 use kinematics::{world_from_body, wrap_deg, wrap_rad};
 
@@ -82,15 +83,18 @@ type Row = [f64; STATES];
 #[expect(clippy::needless_range_loop, reason = "rows and columns of matrices")]
 impl Filter {
     /// `surveyed`: the world is given by tags, and the drone stands in it with the accuracy of its placement.
-    pub(super) fn new(surveyed: bool) -> Self {
+    pub(super) fn new(surveyed: bool, start: &Start) -> Self {
         let mut filter = Self { x: [0.0; STATES], p: [[0.0; STATES]; STATES], used: TAGS };
+        filter.x[PLACE] = start.place_m.x;
+        filter.x[PLACE + 1] = start.place_m.y;
         let mut set = |state: usize, deviation: f64| filter.p[state][state] = deviation * deviation;
         for axis in 0..2 {
             set(BIAS + axis, BIAS_M_S);
             set(CAMERA + axis, CAMERA_RAD);
-            if surveyed {
-                set(PLACE + axis, START_M);
-            }
+            set(
+                PLACE + axis,
+                if surveyed { START_M.max(start.deviation_m) } else { start.deviation_m },
+            );
         }
         set(RATE, RATE_DEG_S.to_radians());
         if surveyed {

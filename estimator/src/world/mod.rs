@@ -4,7 +4,7 @@
 //! position and direction of that frame in the world: `world = odometry + correction`, rotated by a heading
 //! correction. Each sighting of a roundel is compared with the odometry at the time of its picture, so
 //! nothing has to be rolled back. The world frame is that of the start: right and forward of the drone's
-//! initial position.
+//! initial position, unless the [`Start`] is elsewhere.
 //!
 //! Jumps of the correction do not reach the controller at once: see [`World::smooth`].
 
@@ -32,6 +32,7 @@ use self::map::Map;
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
+use crate::Start;
 use crate::sensor::FLOW_SCALE;
 use kinematics::{body_from_world, world_from_body};
 
@@ -143,6 +144,8 @@ const DUE_SLOW_M_S: f64 = 0.5;
 pub(crate) struct World {
     /// `None` if tags are not used.
     config: Option<TagConfig>,
+    /// Where the odometry began.
+    start_m: Vector2<f64>,
     filter: Filter,
     map: Map,
     orientation: Orientation,
@@ -189,11 +192,12 @@ pub(crate) struct OdometryStep {
 }
 
 impl World {
-    pub(crate) fn new(config: Option<&TagConfig>) -> Self {
+    pub(crate) fn new(config: Option<&TagConfig>, start: &Start) -> Self {
         let surveyed = config.map_or([None; MAX_TAGS], |config| config.surveyed);
-        let mut filter = Filter::new(surveyed.iter().any(Option::is_some));
+        let mut filter = Filter::new(surveyed.iter().any(Option::is_some), start);
         let map = Map::new(&surveyed, &mut filter);
         Self {
+            start_m: start.place_m,
             filter,
             map,
             orientation: Orientation::new(config.and_then(|config| config.orientation)),
@@ -413,7 +417,7 @@ impl World {
             known: self.map.known_tags(&self.filter, now_s),
             seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
             heading_held: self.orientation.sign().is_some(),
-            drift_m: -self.filter.correction().place_m,
+            drift_m: self.start_m - self.filter.correction().place_m,
             given_up: self.given_up,
             is_due: false,
         })

@@ -18,7 +18,7 @@ fn assert_same(found: &DMatrix<f64>, expected: &DMatrix<f64>) {
 
 /// A filter with two tags, in which everything is correlated with everything.
 fn filled() -> Filter {
-    let mut filter = Filter::new(false);
+    let mut filter = Filter::new(false, &Start::default());
     filter.use_tags(2);
     let used = filter.used;
     let some = |i: usize| (i as f64 * 12.9898).sin() * 0.3;
@@ -213,7 +213,7 @@ fn an_orientation_corrects_the_heading_by_kalmans_equations() {
 
 /// A filter that knows everything but one tag.
 fn certain(tag_variance_m2: f64) -> Filter {
-    let mut filter = Filter::new(false);
+    let mut filter = Filter::new(false, &Start::default());
     filter.use_tags(2);
     filter.p = [[0.0; STATES]; STATES];
     for axis in 0..2 {
@@ -257,7 +257,7 @@ fn beyond_five_deviations_it_is_something_else() {
 #[test]
 fn at_the_start_only_what_was_not_set_is_unknown() {
     for surveyed in [false, true] {
-        let filter = Filter::new(surveyed);
+        let filter = Filter::new(surveyed, &Start::default());
         let placed = |deviation: f64| if surveyed { deviation.powi(2) } else { 0.0 };
         let expected = [
             placed(START_M),

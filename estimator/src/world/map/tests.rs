@@ -1,4 +1,5 @@
 use super::*;
+use crate::Start;
 use crate::world::camera::Look;
 use crate::world::history::Moment;
 
@@ -21,7 +22,7 @@ impl Bench {
         for (slot, tag) in slots.iter_mut().zip(surveyed) {
             *slot = Some(*tag);
         }
-        let mut filter = Filter::new(!surveyed.is_empty());
+        let mut filter = Filter::new(!surveyed.is_empty(), &Start::default());
         let map = Map::new(&slots, &mut filter);
         Self { filter, map, orientation: Orientation::new(None) }
     }

@@ -1,6 +1,7 @@
 //! The world frame, what moves it, and what does not.
 
 use super::*;
+use crate::Start;
 use crate::world::{
     FASTEST_TURN_DEG_S, LOWEST_M, MAX_SIGHTS, OdometryStep, OrientationSign, STANDS_M, World,
 };
@@ -43,7 +44,7 @@ pub(super) fn surveyed() -> TagConfig {
 impl Drone {
     pub(super) fn new(config: &TagConfig) -> Self {
         Self {
-            tags: World::new(Some(config)),
+            tags: World::new(Some(config), &Start::default()),
             now_s: 0.0,
             odometry_m: Vector2::new(0.15, -0.1),
             place_m: Vector2::zeros(),
@@ -374,7 +375,7 @@ fn estimate_prediction_and_reference_are_all_of_the_world() {
     let (correction, bias_m_s) = (tags.filter.correction(), tags.filter.bias_m_s());
     let turned_deg = correction.heading_rad.to_degrees();
     assert!(bias_m_s.norm() > 0.005 && turned_deg.abs() > 0.5, "{correction:?}");
-    *estimator.world = World::new(None);
+    *estimator.world = World::new(None, &Start::default());
     let odometry = estimator.predicted(now);
     estimator.world = tags.clone();
     let world = estimator.predicted(now);

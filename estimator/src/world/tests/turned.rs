@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::OrientationSign;
+use crate::Start;
 use crate::world::MAX_TAGS;
 use crate::world::filter::Filter;
 use crate::world::map::Map;
@@ -83,7 +84,7 @@ fn residuals_of_a_direction_that_do_not_average_out_show_that_a_tag_turns() {
         let place_m = Vector2::zeros();
         let mut surveyed = [None; MAX_TAGS];
         surveyed[0] = Some(SurveyedTag { place_m, heading_deg: Some(0.0) });
-        let mut map = Map::new(&surveyed, &mut Filter::new(true));
+        let mut map = Map::new(&surveyed, &mut Filter::new(true, &Start::default()));
         let sights = residuals.iter().flat_map(|(off_deg, sights)| (0..*sights).map(|_| *off_deg));
         sights.fold(false, |_, off_deg| map.watch_direction(0, off_deg, deviation_deg))
     };
