@@ -106,6 +106,9 @@ impl Replay {
                     let (by, order) = order.as_ref().clone().given(&config.limits)?;
                     _ = vehicle.handle(*at, Input::Order(by, order));
                 }
+                Entry::Neighbour(neighbour) => {
+                    _ = vehicle.handle(*at, Input::Neighbour(neighbour.heard()));
+                }
                 Entry::Decoded(_)
                 | Entry::Tags(_)
                 | Entry::Mission(_)

@@ -11,6 +11,7 @@
 //! - [`mission`]: the steps to be flown, and which is next.
 //! - [`vehicle`]: the state machine and its tick.
 //! - [`safety`]: limits that the agent cannot override.
+//! - [`separation`]: other vehicles in the same room.
 //! - [`outcome`]: how a flight ends.
 #![deny(unsafe_code)]
 
@@ -20,6 +21,7 @@ pub mod mission;
 pub mod outcome;
 pub mod plan;
 pub mod safety;
+pub mod separation;
 pub mod vehicle;
 mod wind;
 

@@ -4,6 +4,7 @@
 //! limits of stick motion, and that a drone in its emergency state is never ordered to fly. A landing that it
 //! has ordered is not taken back in the air.
 
+mod apart;
 mod brake;
 mod carried;
 mod descent;
@@ -14,13 +15,16 @@ use std::time::Duration;
 
 use kinematics::{Pose, Sticks, world_from_body};
 use nalgebra::Vector2;
+use pid::{Course, MotionLimits};
 
+use self::apart::Apart;
 use self::brake::Brake;
 use self::carried::is_carried_off;
 use self::descent::{Cause, Descent};
-pub(crate) use self::stopping::Stopping;
+pub(crate) use self::stopping::{Stopping, stopping_inside_m_s};
 use crate::agent::AgentCommand;
 use crate::fence::{FlightLimits, across};
+use crate::separation::Others;
 pub use crate::wind::Wind;
 
 /// Navdata older than this are too old to move by: the drone hovers.
@@ -73,11 +77,15 @@ pub enum Veto {
     /// The wind carries the drone over the fence faster than it can brake: fly it down against the wind, and
     /// land.
     CarriedOff,
+    /// Another vehicle is in the way: fly past it, or wait.
+    KeepsApart,
+    /// Another vehicle is too near, and cannot be kept away from: land.
+    Crowded,
 }
 
 impl Veto {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::StaleNavdata,
         Self::Blind,
         Self::Emergency,
@@ -87,6 +95,8 @@ impl Veto {
         Self::NearFence,
         Self::OutsideFence,
         Self::CarriedOff,
+        Self::KeepsApart,
+        Self::Crowded,
     ];
 
     /// Its name in logs.
@@ -101,12 +111,17 @@ impl Veto {
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
             Self::CarriedOff => "CarriedOff",
+            Self::KeepsApart => "KeepsApart",
+            Self::Crowded => "Crowded",
         }
     }
 
     /// Whether this veto ends in a landing.
     pub fn lands(self) -> bool {
-        matches!(self, Self::Blind | Self::OutsideFence | Self::CarriedOff | Self::Landing)
+        matches!(
+            self,
+            Self::Blind | Self::OutsideFence | Self::CarriedOff | Self::Landing | Self::Crowded
+        )
     }
 }
 
@@ -124,6 +139,8 @@ impl fmt::Display for Veto {
             Self::NearFence => "at the fence: stopping",
             Self::OutsideFence => "outside the fence: flying back and landing",
             Self::CarriedOff => "the wind is stronger than the drone can brake: landing",
+            Self::KeepsApart => "another vehicle is in the way: keeping apart",
+            Self::Crowded => "too near to another vehicle: landing",
         })
     }
 }
@@ -224,6 +241,7 @@ pub struct SafetyMonitor {
     /// Where manual control was stopped, until it leads inside again. It must not be found anew in each tick: a place that
     /// goes ahead of the drone would lead it on, along the border, up and down.
     stop: Option<Pose>,
+    apart: Apart,
 }
 
 impl SafetyMonitor {
@@ -235,6 +253,7 @@ impl SafetyMonitor {
             brake: Brake::default(),
             sticks: Sticks::default(),
             stop: None,
+            apart: Apart::default(),
         }
     }
 
@@ -303,6 +322,35 @@ impl SafetyMonitor {
             }
             _ => (command, None),
         }
+    }
+
+    /// What [`SafetyMonitor::check`] has left of a command, kept apart from other vehicles: the drone lands if that is not
+    /// possible. The reference of its motion stays within `limits`.
+    pub(crate) fn keep_apart(
+        &mut self,
+        command: AgentCommand,
+        now: &Situation,
+        others: &Others,
+        limits: &MotionLimits,
+    ) -> (AgentCommand, Option<Veto>) {
+        let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
+        if others.is_empty() || !now.airborne || !moves {
+            self.apart.rest();
+            return (command, None);
+        }
+        self.brake.keep_apart(now, others);
+        if self.apart.is_crowded(now, others) {
+            self.state = State::Landing { cause: Some(Cause::Crowded) };
+            return (AgentCommand::Land, Some(Veto::Crowded));
+        }
+        let (command, keeps_apart) =
+            self.apart.keep(command, now, others, &self.fence.border, limits);
+        (command, keeps_apart.then_some(Veto::KeepsApart))
+    }
+
+    /// The way on which the drone is kept apart from others, if it is.
+    pub(crate) fn course(&self) -> Option<&Course> {
+        self.apart.course()
     }
 
     /// Ends a flight back into the fence: the drone lands where it is.

@@ -6,6 +6,7 @@
 
 mod compressed_video;
 mod messages;
+mod neighbour;
 mod order;
 mod pictures;
 mod reader;
@@ -19,6 +20,7 @@ pub use messages::{
     Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Mission, Place, Tag,
     Tags, Tick, Timing,
 };
+pub use neighbour::Neighbour;
 pub use order::Order;
 pub use pictures::{RecordedPicture, pictures};
 pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
@@ -26,6 +28,7 @@ pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder}
 pub use writer::LogWriter;
 
 use autopilot::plan::ZOrigin;
+use autopilot::separation;
 use autopilot::vehicle::{
     Decision, Input, Operator, OperatorOrder, Telemetry, Transmit, VehicleName,
 };
@@ -91,6 +94,13 @@ pub enum Record {
         /// The order.
         order: OperatorOrder,
     },
+    /// What another vehicle told of itself.
+    Neighbour {
+        /// Time of handling.
+        at: Duration,
+        /// What.
+        neighbour: separation::Neighbour,
+    },
     /// What the vehicle told: events, missions and outcomes.
     Telemetry {
         /// Its time.
@@ -151,6 +161,9 @@ impl Record {
             // Even if it was refused: a replay refuses it again.
             Passed::Input(Input::Order(by, order), _) => {
                 Self::Order { at, by: *by, order: order.clone() }
+            }
+            Passed::Input(Input::Neighbour(neighbour), _) => {
+                Self::Neighbour { at, neighbour: *neighbour }
             }
             Passed::Sent { transmit: Transmit::Command { datagram, decision }, late, work } => {
                 let ms = |time: &Duration| time.as_secs_f64() * 1e3;

@@ -14,6 +14,7 @@ use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
 use super::messages::{Bytes, DecodedNavdata, Mission, Tags, Tick};
+use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
@@ -55,6 +56,8 @@ pub enum Entry {
     Control(Vec<u8>),
     /// An operator's order.
     Order(Box<Order>),
+    /// What another vehicle told of itself.
+    Neighbour(Neighbour),
     /// The mission, which has changed.
     Mission(Mission),
     /// An event as text.
@@ -334,6 +337,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::NAVDATA.name => Entry::Decoded(parse(topic, data)?),
         _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
         _ if topic == topic::ORDERS.name => Entry::Order(Box::new(parse(topic, data)?)),
+        _ if topic == topic::NEIGHBOURS.name => Entry::Neighbour(parse(topic, data)?),
         _ if topic == topic::MISSION.name => Entry::Mission(parse(topic, data)?),
         _ if topic == topic::TAGS.name => Entry::Tags(parse(topic, data)?),
         _ if topic == topic::LOG.name => {

@@ -27,6 +27,11 @@ pub(super) const ORDERS: Topic = Topic {
     schema: "ardrone_pilot.Order",
     text: include_str!("schemas/order.json"),
 };
+pub(super) const NEIGHBOURS: Topic = Topic {
+    name: "/neighbours",
+    schema: "ardrone_pilot.Neighbour",
+    text: include_str!("schemas/neighbour.json"),
+};
 pub(super) const MISSION: Topic = Topic {
     name: "/mission",
     schema: "ardrone_pilot.Mission",
@@ -49,5 +54,5 @@ pub(super) const TAGS: Topic =
 /// Pictures of the drone's camera: protobuf, unlike the others.
 pub(super) const VIDEO: &str = "/video";
 
-pub(super) const ALL: [Topic; 10] =
-    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, MISSION, LOG, POSE, TARGET, TAGS];
+pub(super) const ALL: [Topic; 11] =
+    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, NEIGHBOURS, MISSION, LOG, POSE, TARGET, TAGS];

@@ -19,6 +19,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::messages::{Bytes, DecodedNavdata, Mission, Place, Tags, Tick};
+use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{
     AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE,
@@ -135,6 +136,9 @@ impl<W: Write + Seek> LogWriter<W> {
             }
             Record::Order { at, by, order } => {
                 self.message(topic::ORDERS, *at, &Order::new(*by, order.clone()))
+            }
+            Record::Neighbour { at, neighbour } => {
+                self.message(topic::NEIGHBOURS, *at, &Neighbour::from(neighbour))
             }
             Record::Telemetry { at, telemetry } => self.telemetry(*at, telemetry),
             Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),

@@ -7,7 +7,8 @@ use nalgebra::Vector2;
 
 use super::stopping::Stopping;
 use super::{BEYOND_M, Motion, Situation};
-use crate::fence::{FlightLimits, across};
+use crate::fence::{FlightLimits, Wall, across};
+use crate::separation::Others;
 
 /// The sticks go from full outward to full inward while the way to rest ends further out by this.
 const BAND_M: f64 = 0.2;
@@ -22,6 +23,8 @@ pub(super) struct Brake {
     /// Where the drone would leave the fence: the wall that it would pass by most, and one in another direction, as in a
     /// corner.
     walls: [Limit; 2],
+    /// Likewise where it would pass the lines between it and other vehicles.
+    others: [Limit; 2],
     /// Smallest and largest gaz.
     least_gaz: f64,
     most_gaz: f64,
@@ -40,32 +43,17 @@ impl Limit {
 
 impl Default for Brake {
     fn default() -> Self {
-        Self { walls: [Limit::NONE; 2], least_gaz: -1.0, most_gaz: 1.0 }
+        Self { walls: [Limit::NONE; 2], others: [Limit::NONE; 2], least_gaz: -1.0, most_gaz: 1.0 }
     }
 }
 
 impl Brake {
     /// For a fence. The gaz that was last sent is `gaz`.
     pub(super) fn of(now: &Situation, gaz: f64, fence: &FlightLimits) -> Self {
-        let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, up_m_s] } = now.stops_from();
-        let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
-        let speed_m_s = velocity_m_s.norm();
-        let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-        let wind = now.wind.lasting(&along).min(1.0 - LEAST_BRAKING);
-        let braking_m_s2 = now.wind.braking_m_s2(wind, now.drag_1_s, speed_m_s);
-        let stopping = Stopping { delay_s: now.tilts_after_s, braking_m_s2 };
-        let stop_m = across(&pose) + along * stopping.way_m(speed_m_s);
-        let limits = fence
-            .border
-            .passed(across(&pose), stop_m, BEYOND_M)
-            .filter(|wall| velocity_m_s.dot(&wall.outward) > 0.0)
-            .map(|wall| Limit { outward: wall.outward, most: left(-wall.distance_m - BEYOND_M) });
-        let strictest = |a: Limit, b: Limit| if b.most < a.most { b } else { a };
-        let first = limits.clone().fold(Limit::NONE, strictest);
-        let is_other = |limit: &Limit| limit.outward.dot(&first.outward) < ELSEWHERE;
-        let walls = [first, limits.filter(is_other).fold(Limit::NONE, strictest)];
-        let to_body =
-            |limit: Limit| Limit { outward: body_from_world(limit.outward, pose.yaw_deg), ..limit };
+        let Motion { pose, velocity_m_s: [_, _, up_m_s] } = now.stops_from();
+        let (velocity_m_s, stop_m) = stop(now);
+        let passed = fence.border.passed(across(&pose), stop_m, BEYOND_M);
+        let walls = strictest(passed, velocity_m_s, pose.yaw_deg);
         // One that sinks faster than it was identified will do so.
         let sinks_m_s = gaz.min(0.0) * Airframe::STRONGEST_DROP * now.climb_m_s;
         let up_m_s = if up_m_s < 0.0 { up_m_s.min(sinks_m_s) } else { up_m_s };
@@ -83,17 +71,26 @@ impl Brake {
         };
         let stop_z_m = pose.z_m + stopping.way_m(up_m_s);
         Self {
-            walls: walls.map(to_body),
+            walls,
+            others: [Limit::NONE; 2],
             // Not far below the floor of the fence is the room's.
             least_gaz: if up_m_s < 0.0 { -left(2.0 * (fence.floor_m - stop_z_m)) } else { -1.0 },
             most_gaz: if up_m_s > 0.0 { left(stop_z_m - fence.ceiling_m - BEYOND_M) } else { 1.0 },
         }
     }
 
+    /// Also where the drone could only just stop before the lines between it and other vehicles.
+    pub(super) fn keep_apart(&mut self, now: &Situation, others: &Others) {
+        let (velocity_m_s, stop_m) = stop(now);
+        let walls = others.iter().map(|other| other.wall(stop_m));
+        let passed = walls.filter(|wall| wall.distance_m < -BEYOND_M);
+        self.others = strictest(passed, velocity_m_s, now.soon.pose.yaw_deg);
+    }
+
     /// The sticks that are left of these.
     pub(super) fn leave(&self, sticks: &Sticks) -> Sticks {
         let mut tilt = Vector2::new(sticks.roll, -sticks.pitch);
-        for Limit { outward, most } in self.walls {
+        for Limit { outward, most } in self.walls.into_iter().chain(self.others) {
             let excess = tilt.dot(&outward) - most;
             if most < 1.0 && excess > 0.0 {
                 tilt -= outward * excess;
@@ -102,6 +99,35 @@ impl Brake {
         let gaz = sticks.gaz.min(self.most_gaz).max(self.least_gaz);
         Sticks { roll: tilt.x, pitch: -tilt.y, gaz, ..*sticks }
     }
+}
+
+/// The velocity of a drone, and where it would come to rest from it with all that it has.
+fn stop(now: &Situation) -> (Vector2<f64>, Vector2<f64>) {
+    let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, _] } = now.stops_from();
+    let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
+    let speed_m_s = velocity_m_s.norm();
+    let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
+    let wind = now.wind.lasting(&along).min(1.0 - LEAST_BRAKING);
+    let braking_m_s2 = now.wind.braking_m_s2(wind, now.drag_1_s, speed_m_s);
+    let stopping = Stopping { delay_s: now.tilts_after_s, braking_m_s2 };
+    (velocity_m_s, across(&pose) + along * stopping.way_m(speed_m_s))
+}
+
+/// What is left of the sticks by the wall that would be passed by most, and by one in another direction, of those towards
+/// which the drone flies.
+fn strictest(
+    passed: impl Iterator<Item = Wall> + Clone,
+    velocity_m_s: Vector2<f64>,
+    yaw_deg: f64,
+) -> [Limit; 2] {
+    let limits = passed
+        .filter(|wall| velocity_m_s.dot(&wall.outward) > 0.0)
+        .map(|wall| Limit { outward: wall.outward, most: left(-wall.distance_m - BEYOND_M) });
+    let stricter = |a: Limit, b: Limit| if b.most < a.most { b } else { a };
+    let first = limits.clone().fold(Limit::NONE, stricter);
+    let is_other = |limit: &Limit| limit.outward.dot(&first.outward) < ELSEWHERE;
+    [first, limits.filter(is_other).fold(Limit::NONE, stricter)]
+        .map(|limit| Limit { outward: body_from_world(limit.outward, yaw_deg), ..limit })
 }
 
 /// What is left of a stick that leads to a rest this far outside.
@@ -116,6 +142,7 @@ mod tests {
     use super::*;
     use crate::fence::Border;
     use crate::safety::tests::FINE;
+    use crate::separation::{Neighbour, Neighbours, Oneself};
     use crate::wind::Wind;
 
     const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
@@ -168,6 +195,38 @@ mod tests {
         assert!(left_in_an_l([0.5, 0.5], [2.0, 0.0])[0] < -0.99);
         assert!((left_in_an_l([0.5, 1.5], [2.0, 0.0])[0] - 1.0).abs() < 1e-9, "past the corner");
         assert!((left_in_an_l([0.9, -1.0], [0.0, 2.0])[0] - 1.0).abs() < 1e-9, "along it");
+    }
+
+    /// What is left of full sticks to the right of a drone at 2 m/s, this far from where another one hovers.
+    fn left_before_another(away_m: f64) -> f64 {
+        let soon = Motion { velocity_m_s: [2.0, 0.0, 0.0], ..FINE.soon };
+        let here_m = across(&soon.pose);
+        let mut neighbours = Neighbours::default();
+        let neighbour = Neighbour {
+            system: 2,
+            at: FINE.now,
+            place_m: here_m + Vector2::new(away_m, 0.0),
+            velocity_m_s: Vector2::zeros(),
+            deviation_m: 0.0,
+            airborne: true,
+        };
+        neighbours.hear(neighbour).unwrap();
+        let velocity_m_s = Vector2::new(2.0, 0.0);
+        let oneself =
+            Oneself { place_m: here_m, velocity_m_s, deviation_m: 0.0, separation_m: 1.5 };
+        let now = Situation { soon, ..FINE };
+        let mut brake = Brake::of(&now, 0.0, &FENCE);
+        brake.keep_apart(&now, &neighbours.others(FINE.now, &oneself));
+        brake.leave(&Sticks { roll: 1.0, ..Sticks::default() }).roll
+    }
+
+    #[test]
+    fn a_drone_that_could_only_just_stop_before_another_brakes() {
+        // From 2 m/s it stops within 1.31 m.
+        assert!((left_before_another(3.0) - 1.0).abs() < 1e-9);
+        assert!((left_before_another(2.45) + 1.0).abs() < 1e-9);
+        let way_m = 0.2 * 2.0 + 4.0 / (2.0 * 2.2);
+        assert!(left_before_another(1.5 + way_m - 0.25).abs() < 1e-9, "half a band beyond the line");
     }
 
     #[test]

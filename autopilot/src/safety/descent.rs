@@ -40,6 +40,7 @@ pub(super) enum Cause {
     Blind,
     OutsideFence,
     CarriedOff,
+    Crowded,
 }
 
 impl Cause {
@@ -48,6 +49,7 @@ impl Cause {
             Self::Blind => Veto::Blind,
             Self::OutsideFence => Veto::OutsideFence,
             Self::CarriedOff => Veto::CarriedOff,
+            Self::Crowded => Veto::Crowded,
         }
     }
 }
@@ -93,7 +95,7 @@ impl Descent {
         let (target, may_fly) = match self.cause {
             Cause::OutsideFence => (self.retreat(&now.pose, fence), sinks || !is_hopeless),
             Cause::CarriedOff => (Some(self.upwind), sinks),
-            Cause::Blind => (None, false),
+            Cause::Blind | Cause::Crowded => (None, false),
         };
         let retreats = may_fly && now.blind_for <= BLIND_RETREAT && now.now < self.retreats_until;
         match target {

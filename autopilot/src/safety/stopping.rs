@@ -1,5 +1,12 @@
 //! The way that a drone needs to come to rest: computed once, for whoever asks.
 
+use nalgebra::Vector2;
+
+use crate::fence::Wall;
+
+/// A velocity in a corner that is too fast by this is given up, in m/s.
+const INTO_A_CORNER_M_S: f64 = 0.05;
+
 /// How a drone comes to rest: it goes on for a while, then decelerates evenly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stopping {
@@ -23,6 +30,30 @@ impl Stopping {
         let delay_m_s = self.braking_m_s2 * self.delay_s;
         (delay_m_s * delay_m_s + 2.0 * self.braking_m_s2 * room_m.max(0.0)).sqrt() - delay_m_s
     }
+}
+
+/// A wanted velocity, or another, from which a drone that has this one can stop before all walls, whose distances are those
+/// at which it shall stop.
+pub(crate) fn stopping_inside_m_s(
+    wanted_m_s: Vector2<f64>,
+    velocity_m_s: Vector2<f64>,
+    walls: &(impl Iterator<Item = Wall> + Clone),
+) -> Vector2<f64> {
+    let too_fast_m_s = |velocity_m_s: Vector2<f64>, wall: &Wall| {
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(wall.distance_m);
+        (velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)
+    };
+    let slowed =
+        |velocity_m_s, wall: Wall| velocity_m_s - wall.outward * too_fast_m_s(velocity_m_s, &wall);
+    let brakes_m_s = walls.clone().fold(velocity_m_s, slowed) - velocity_m_s;
+    if brakes_m_s != Vector2::zeros() {
+        // All that it can do is to brake.
+        return brakes_m_s;
+    }
+    let kept_m_s = walls.clone().fold(wanted_m_s, slowed);
+    // What avoids one wall may lead to another: then it stays where it is.
+    let is_trapped = walls.clone().any(|wall| too_fast_m_s(kept_m_s, &wall) > INTO_A_CORNER_M_S);
+    if is_trapped { Vector2::zeros() } else { kept_m_s }
 }
 
 #[cfg(test)]

@@ -63,7 +63,13 @@ impl Vehicle {
                     ..Prediction::default()
                 };
                 let storm = self.flight.wind.has_risen(self.full_tilt_m_s2());
-                self.flight.saturation.watch(&demand, limit, &measured, &target, storm, step_s);
+                // Who lets others pass is not on its way to the target.
+                let led_to = self.flight.safety.course().map_or(target, |course| Pose {
+                    x_m: course.position_m.x,
+                    y_m: course.position_m.y,
+                    ..target
+                });
+                self.flight.saturation.watch(&demand, limit, &measured, &led_to, storm, step_s);
                 sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
@@ -97,6 +103,8 @@ impl Vehicle {
     fn demand(&mut self, soon: &Prediction, target: &Pose, step_s: f64) -> Sticks {
         // A tag that is seen again moves the estimate by a step, which comes as a motion.
         let state = self.flight.estimator.smooth(soon);
+        let apart = self.flight.safety.course();
+        let course = apart.or_else(|| self.life.manual().course(target));
         self.flight.controller.step(&Inputs {
             pose: &pose(&state),
             velocity: &Velocity {
@@ -111,7 +119,7 @@ impl Vehicle {
             step_s,
             limit: self.mission.max_control(),
             speed_m_s: self.mission.speed_m_s().unwrap_or(self.config.cascade.speed_max_m_s),
-            course: self.life.manual().course(target),
+            course,
         })
     }
 }

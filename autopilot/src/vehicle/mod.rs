@@ -15,6 +15,7 @@ mod link;
 mod manual;
 mod manual_orders;
 mod name;
+mod neighbours;
 mod operator_order;
 mod operators;
 mod orders;
@@ -43,7 +44,7 @@ use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{BitRateControl, Camera, Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
 pub use estimator::{
-    KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust, Worth,
+    KnownTag, KnownTags, Quantity, Start, SurveyedTag, TagConfig, TagStatus, Trust, Worth,
 };
 use kinematics::Pose;
 use pid::CascadeConfig;
@@ -74,6 +75,7 @@ use crate::mission::Mission;
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, FlightLimits, Plan, Step, Target};
 pub use crate::safety::Veto;
+use crate::separation::Neighbours;
 
 /// Control period.
 pub const TICK: Duration = Duration::from_millis(30);
@@ -97,6 +99,8 @@ pub struct VehicleConfig {
     pub system: u8,
     /// The fence.
     pub limits: FlightLimits,
+    /// Least distance from other vehicles, across, in metres.
+    pub separation_m: f64,
     /// Whether the drone's configuration is read back over the control port before take-off.
     pub read_back: bool,
     /// Navdata rate requested from the drone.
@@ -134,6 +138,7 @@ impl Default for VehicleConfig {
             name: VehicleName::default(),
             system: 1,
             limits: FlightLimits::default(),
+            separation_m: 1.5,
             read_back: true,
             navdata: NavdataRate::default(),
             gps: false,
@@ -204,6 +209,8 @@ pub struct Vehicle {
     decision: Option<Decision>,
     /// The camera that was ordered last.
     camera: Option<Camera>,
+    /// The other vehicles in the room.
+    neighbours: Neighbours,
     pending: Pending,
 }
 
@@ -268,6 +275,7 @@ impl Vehicle {
             events: VecDeque::with_capacity(EVENTS),
             decision: None,
             camera: None,
+            neighbours: Neighbours::default(),
             pending: Pending::default(),
         })
     }
@@ -286,6 +294,7 @@ impl Vehicle {
 
     /// Resets the state of the last flight.
     fn begin_flight(&mut self, now: Duration) {
+        self.start_here(now);
         self.flight = Flight::new(&self.with_mission_tags(), now);
         self.expect_link_delay();
         self.pending.waypoints = 0;

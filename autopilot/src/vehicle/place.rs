@@ -86,7 +86,8 @@ impl Vehicle {
         }
         let heard = self.session.silence(now).is_some_and(|age| age <= HEARD);
         let flight = &mut self.flight;
-        let place_m = flight.estimator.estimate().position_m.xy();
+        let start_m = self.config.estimator.start.unwrap_or_default().place_m;
+        let place_m = flight.estimator.estimate().position_m.xy() - start_m;
         let deviation_m = flight.estimator.horizontal_deviation_m(now);
         let cross_checks = &mut flight.cross_checks;
         // In a silence nothing can be seen.

@@ -12,6 +12,7 @@ use super::{
 };
 use crate::outcome::Outcome;
 use crate::plan::{MissionId, Step};
+use crate::separation::Neighbour;
 
 /// Ticks between two status.
 const STATUS_TICKS: u32 = 3;
@@ -25,6 +26,8 @@ pub enum Input<'a> {
     Control(&'a [u8]),
     /// An operator's order.
     Order(Operator, OperatorOrder),
+    /// Another vehicle in the same room tells of itself.
+    Neighbour(Neighbour),
     /// It is time to decide what the drone shall do: once every [`TICK`](super::TICK).
     Tick,
     /// Likewise for a program that is about to exit: the session alone orders the landing, so that it works whatever state
@@ -116,7 +119,8 @@ impl Vehicle {
     /// each tick.
     ///
     /// # Errors
-    /// [`Refused`] for an order that is not accepted, and a datagram that is damaged or old. Nothing has changed then but
+    /// [`Refused`] for an order that is not accepted, a datagram that is damaged or old, and a neighbour that makes no sense or
+    /// is one too many. Nothing has changed then but
     /// counts, except that a local operator's hold takes the controls from a remote one even if there is nothing to hold.
     pub fn handle(&mut self, now: Duration, input: Input<'_>) -> Result<(), Refused> {
         self.handle_timed(now, input, |_| {})
@@ -136,6 +140,7 @@ impl Vehicle {
             Input::Navdata(datagram) => return self.handle_navdata(now, datagram),
             Input::Control(bytes) => self.handle_control(now, bytes),
             Input::Order(by, order) => return self.order(now, by, order),
+            Input::Neighbour(neighbour) => return self.hear(neighbour),
             Input::Tick => {
                 self.pending.begin_tick(now);
                 self.decide(now, done);

@@ -4,6 +4,7 @@ use estimator::MAX_TAGS;
 
 use super::Operator;
 use crate::mission::AppendError;
+use crate::separation::NotHeard;
 
 /// Why an order was refused. A refused order changes nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -64,6 +65,9 @@ pub enum Refused {
     /// A datagram is damaged, or older than another one.
     #[error("the datagram is damaged or old")]
     Datagram,
+    /// What another vehicle tells of itself is not believed.
+    #[error(transparent)]
+    Neighbour(#[from] NotHeard),
     /// The tick loop's queue was full.
     #[error("too many orders are waiting: try again")]
     Busy,

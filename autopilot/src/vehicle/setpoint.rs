@@ -6,7 +6,7 @@ use pid::{Course, MotionLimits};
 use serde::{Deserialize, Serialize};
 
 use crate::fence::{Border, Wall};
-use crate::safety::Stopping;
+use crate::safety::stopping_inside_m_s;
 
 /// Fastest climb and descent, in m/s.
 const CLIMB_MAX_M_S: f64 = 0.75;
@@ -17,8 +17,6 @@ const TURN_MAX_DEG_S: f64 = 60.0;
 const LEASH_M: f64 = 0.6;
 /// Likewise for its height.
 const CLIMB_LEASH_M: f64 = 1.2;
-/// A velocity in a corner of the fence that is too fast by this is given up, in m/s.
-const INTO_A_CORNER_M_S: f64 = 0.05;
 /// Likewise for its heading, in degrees.
 const LEASH_DEG: f64 = 45.0;
 
@@ -175,29 +173,15 @@ fn kept_inside_m_s(
     (border, by_m): (&Border, f64),
 ) -> Vector2<f64> {
     let is_behind = border.outside_m(here_m) > border.outside_m(course.position_m);
-    let foremost_m = if is_behind { here_m } else { course.position_m };
-    let too_fast_m_s = |velocity_m_s: Vector2<f64>, wall: &Wall| {
-        let most_m_s = Stopping::CAUTIOUS.speed_m_s(wall.distance_m - by_m);
-        (velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)
-    };
-    let slowed =
-        |velocity_m_s, wall: Wall| velocity_m_s - wall.outward * too_fast_m_s(velocity_m_s, &wall);
-    let brakes_m_s =
-        border.walls(foremost_m).fold(course.velocity_m_s, slowed) - course.velocity_m_s;
-    if brakes_m_s != Vector2::zeros() {
-        // All that it can do is to brake.
-        return brakes_m_s;
-    }
-    let kept_m_s = border.walls(foremost_m).fold(wanted_m_s, slowed);
-    // What avoids one wall may lead to another: then it stays where it is.
-    let is_trapped =
-        border.walls(foremost_m).any(|wall| too_fast_m_s(kept_m_s, &wall) > INTO_A_CORNER_M_S);
-    if is_trapped { Vector2::zeros() } else { kept_m_s }
+    let walls = border.walls(if is_behind { here_m } else { course.position_m });
+    let walls = walls.map(|wall| Wall { distance_m: wall.distance_m - by_m, ..wall });
+    stopping_inside_m_s(wanted_m_s, course.velocity_m_s, &walls)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::safety::Stopping;
 
     const HERE: Pose = Pose { x_m: 1.0, y_m: 2.0, z_m: 1.0, yaw_deg: 90.0 };
 

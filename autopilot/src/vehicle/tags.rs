@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::navdata::{Packet, VisionDetect};
-use estimator::{MAX_SIGHTS, MAX_TAGS, NoRoom, Prediction, Sight};
+use estimator::{EstimatorConfig, MAX_SIGHTS, MAX_TAGS, NoRoom, Prediction, Sight};
 use kinematics::Pose;
 use nalgebra::Vector2;
 
@@ -127,13 +127,12 @@ impl Vehicle {
         config
     }
 
-    /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but with tags above the
-    /// start, which is where their coordinates begin.
+    /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but above the origin of the world if
+    /// tags or a surveyed start give one.
     pub(super) fn plan_origin(&self, pose: Pose) -> Pose {
-        match self.config.estimator.tags {
-            Some(_) => Pose { z_m: pose.z_m, ..Pose::default() },
-            None => pose,
-        }
+        let EstimatorConfig { tags, start, .. } = &self.config.estimator;
+        let is_given = tags.is_some() || start.is_some();
+        if is_given { Pose { z_m: pose.z_m, ..Pose::default() } } else { pose }
     }
 
     /// The target, turned a little to and fro while that teaches how to read the tag below.
@@ -176,15 +175,16 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_begins_above_the_origin_of_the_tags_or_where_the_drone_took_off() {
+    fn the_plan_begins_above_the_origin_that_is_given_or_where_the_drone_took_off() {
         let there = Pose { x_m: 1.0, y_m: 2.0, z_m: 0.8, yaw_deg: 30.0 };
-        let origin = |tags| {
+        let origin = |tags, start| {
             let mut config = VehicleConfig::default();
-            config.estimator.tags = tags;
+            (config.estimator.tags, config.estimator.start) = (tags, start);
             Vehicle::new(&config).unwrap().plan_origin(there)
         };
-        assert_eq!(origin(None), there);
+        assert_eq!(origin(None, None), there);
         let above = Pose { z_m: 0.8, ..Pose::default() };
-        assert_eq!(origin(Some(super::super::TagConfig::default())), above);
+        assert_eq!(origin(Some(super::super::TagConfig::default()), None), above);
+        assert_eq!(origin(None, Some(estimator::Start::default())), above);
     }
 }

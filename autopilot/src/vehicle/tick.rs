@@ -67,6 +67,8 @@ impl Vehicle {
         let soon = self.state(now + self.flight.estimator.order_delay());
         let situation = self.situation(now, &state, &soon);
         let (command, veto) = self.flight.safety.check(wanted, &situation);
+        let (command, apart) = self.kept_apart(now, command, &state, &situation);
+        let veto = apart.or(veto);
         if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
             if veto.lands() {

@@ -1,0 +1,96 @@
+//! What other vehicles tell of themselves, in the flight log.
+
+use std::time::Duration;
+
+use autopilot::separation;
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+/// Another vehicle, as [`separation::Neighbour`]. A number that is not finite is null, and makes no sense when it is read
+/// again either.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Neighbour {
+    system: u8,
+    at_ns: u64,
+    x_m: Option<f64>,
+    y_m: Option<f64>,
+    x_m_s: Option<f64>,
+    y_m_s: Option<f64>,
+    deviation_m: Option<f64>,
+    airborne: bool,
+}
+
+impl From<&separation::Neighbour> for Neighbour {
+    fn from(heard: &separation::Neighbour) -> Self {
+        let finite = |number: f64| Some(number).filter(|number| number.is_finite());
+        Self {
+            system: heard.system,
+            at_ns: u64::try_from(heard.at.as_nanos()).unwrap_or(u64::MAX),
+            x_m: finite(heard.place_m.x),
+            y_m: finite(heard.place_m.y),
+            x_m_s: finite(heard.velocity_m_s.x),
+            y_m_s: finite(heard.velocity_m_s.y),
+            deviation_m: finite(heard.deviation_m),
+            airborne: heard.airborne,
+        }
+    }
+}
+
+impl Neighbour {
+    /// What was heard.
+    pub fn heard(&self) -> separation::Neighbour {
+        let number = |number: Option<f64>| number.unwrap_or(f64::NAN);
+        separation::Neighbour {
+            system: self.system,
+            at: Duration::from_nanos(self.at_ns),
+            place_m: Vector2::new(number(self.x_m), number(self.y_m)),
+            velocity_m_s: Vector2::new(number(self.x_m_s), number(self.y_m_s)),
+            deviation_m: number(self.deviation_m),
+            airborne: self.airborne,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_was_heard() {
+        let heard = separation::Neighbour {
+            system: 3,
+            at: Duration::from_nanos(1_234_567_890_123_456_789),
+            place_m: Vector2::new(0.1, -2.0 / 3.0),
+            velocity_m_s: Vector2::new(1e-3, 4.0),
+            deviation_m: 0.25,
+            airborne: true,
+        };
+        let again = |heard: &separation::Neighbour| {
+            let text = serde_json::to_string(&Neighbour::from(heard)).unwrap();
+            serde_json::from_str::<Neighbour>(&text).unwrap().heard()
+        };
+        assert_eq!(again(&heard), heard);
+        let nonsense = separation::Neighbour { deviation_m: f64::INFINITY, ..heard };
+        assert!(again(&nonsense).deviation_m.is_nan());
+    }
+
+    #[test]
+    fn neighbours_have_a_schema() {
+        let schema = include_str!("schemas/neighbour.json");
+        let schema: serde_json::Value = serde_json::from_str(schema).unwrap();
+        let written = serde_json::to_value(Neighbour {
+            system: 1,
+            at_ns: 0,
+            x_m: None,
+            y_m: None,
+            x_m_s: None,
+            y_m_s: None,
+            deviation_m: None,
+            airborne: false,
+        });
+        let keys = |value: &serde_json::Value| -> Vec<String> {
+            value.as_object().unwrap().keys().cloned().collect()
+        };
+        assert_eq!(keys(&schema["properties"]), keys(&written.unwrap()));
+    }
+}

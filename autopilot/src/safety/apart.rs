@@ -1,0 +1,127 @@
+//! How a drone is kept apart from other vehicles: instead of a motion of its own it follows a course that can stop before each
+//! line between it and another, and that leads past whoever is in the way.
+
+use std::time::Duration;
+
+use kinematics::{Pose, Sticks, world_from_body};
+use nalgebra::Vector2;
+use pid::{Course, MotionLimits};
+
+use super::stopping::{Stopping, stopping_inside_m_s};
+use super::{INSIDE_M, Situation, stopping_place};
+use crate::agent::AgentCommand;
+use crate::fence::{Border, Wall, across};
+use crate::separation::{Other, Others, way_past};
+
+/// The reference is never further from the drone than this.
+const LEASH_M: f64 = 0.6;
+/// Who is beyond a line goes back with this speed for each metre, and at most with this one.
+const BACK_1_S: f64 = 1.0;
+const BACK_M_S: f64 = 0.6;
+/// Who is beyond a line by this, for so long, lands: the other does not make room, or may be anywhere.
+const CROWDED_M: f64 = 0.35;
+const CROWDED: Duration = Duration::from_millis(1500);
+/// A velocity that is changed by this is told of, and for so long after the last time.
+const TOLD_M_S: f64 = 0.3;
+const TOLD: Duration = Duration::from_secs(1);
+
+/// Keeps one drone apart from others.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Apart {
+    course: Option<Course>,
+    crowded_since: Option<Duration>,
+    told_until: Duration,
+    /// Where manual control was stopped, until it leads elsewhere.
+    stop: Option<Pose>,
+}
+
+impl Apart {
+    /// The drone does not fly by orders, or is alone.
+    pub(super) fn rest(&mut self) {
+        *self = Self { told_until: self.told_until, ..Self::default() };
+    }
+
+    pub(super) fn course(&self) -> Option<&Course> {
+        self.course.as_ref()
+    }
+
+    /// Whether others have been too near for too long.
+    pub(super) fn is_crowded(&mut self, now: &Situation, others: &Others) -> bool {
+        let is_beyond = least_room_m(across(&now.pose), others) < -CROWDED_M;
+        self.crowded_since = is_beyond.then(|| self.crowded_since.unwrap_or(now.now));
+        self.crowded_since.is_some_and(|since| now.now >= since + CROWDED)
+    }
+
+    /// The command that is left of this one, and whether another vehicle has changed it.
+    pub(super) fn keep(
+        &mut self,
+        command: AgentCommand,
+        now: &Situation,
+        others: &Others,
+        border: &Border,
+        limits: &MotionLimits,
+    ) -> (AgentCommand, bool) {
+        let target = match command {
+            AgentCommand::GoTo(target) => {
+                self.stop = None;
+                target
+            }
+            AgentCommand::Sticks if leads_on(now, others) => {
+                *self.stop.get_or_insert_with(|| stopping_place(&now.stops_from()))
+            }
+            _ => {
+                (self.stop, self.course) = (None, None);
+                return (command, false);
+            }
+        };
+        let here_m = across(&now.pose);
+        let [right_m_s, forward_m_s, _] = now.velocity_m_s;
+        let begun = Course::new(here_m, Vector2::new(right_m_s, forward_m_s));
+        let course = self.course.get_or_insert(begun);
+        let target_m = across(&target);
+        let past_m = way_past(here_m, target_m, others);
+        let wanted_m_s = course.velocity_to(&past_m, limits).cap_magnitude(limits.speed_m_s);
+        let foremost_m = course.position_m;
+        let nearer = |other: &Other| {
+            let [here, there] = [other.wall(here_m), other.wall(foremost_m)];
+            if here.distance_m < there.distance_m { here } else { there }
+        };
+        let lines = others.iter().map(nearer);
+        let is_behind = border.outside_m(here_m) > border.outside_m(foremost_m);
+        let walls = border.walls(if is_behind { here_m } else { foremost_m });
+        let all = lines.clone().chain(walls.clone());
+        let kept_m_s = stopping_inside_m_s(wanted_m_s, course.velocity_m_s, &all);
+        let back = |wall: Wall| wall.outward * (wall.distance_m * BACK_1_S).clamp(-BACK_M_S, 0.0);
+        let back_m_s = lines.map(back).sum::<Vector2<f64>>().cap_magnitude(BACK_M_S);
+        let led_m_s = if back_m_s == Vector2::zeros() {
+            kept_m_s
+        } else {
+            stopping_inside_m_s(kept_m_s + back_m_s, course.velocity_m_s, &walls)
+        };
+        course.advance(led_m_s, limits, now.tick_s);
+        course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
+        let is_stopped = command == AgentCommand::Sticks;
+        if is_stopped || past_m != target_m || (led_m_s - wanted_m_s).norm() > TOLD_M_S {
+            self.told_until = now.now + TOLD;
+        }
+        (AgentCommand::GoTo(target), now.now < self.told_until)
+    }
+}
+
+fn least_room_m(place_m: Vector2<f64>, others: &Others) -> f64 {
+    let rooms = others.iter().map(|other| other.wall(place_m).distance_m);
+    rooms.fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the sticks, or the motion, lead to the line between the drone and another.
+fn leads_on(now: &Situation, others: &Others) -> bool {
+    let Sticks { roll, pitch, .. } = now.sticks;
+    let ahead = world_from_body(Vector2::new(roll, -pitch), now.pose.yaw_deg);
+    let [right_m_s, forward_m_s, _] = now.velocity_m_s;
+    let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
+    others.iter().map(|other| other.wall(across(&now.pose))).any(|wall| {
+        let speed_m_s = velocity_m_s.dot(&wall.outward).max(0.0);
+        let room_m = wall.distance_m - Stopping::CAUTIOUS.way_m(speed_m_s);
+        room_m < INSIDE_M && ahead.dot(&wall.outward) > 0.0 || room_m < 0.0
+    })
+}

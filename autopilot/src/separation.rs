@@ -1,0 +1,211 @@
+//! Other vehicles in the same room, and the room that they leave.
+//!
+//! Each vehicle keeps to its side of a line between itself and each other one, of which both know the same: Voronoi cells
+//! with a buffer (Zhou, Wang, Bandyopadhyay and Schwager, "Fast, On-line Collision Avoidance for Dynamic Vehicles Using
+//! Buffered Voronoi Cells", 2017). The line divides what is left of the distance between the places where both would come
+//! to rest: whoever is fast has more of it. Lines are upright, so that nobody flies above or below another, whose downwash
+//! carries it off, and no wrong height brings two together.
+
+use std::time::Duration;
+
+use arrayvec::ArrayVec;
+use nalgebra::Vector2;
+
+use crate::fence::Wall;
+use crate::safety::Stopping;
+
+/// Most other vehicles.
+pub const MAX_NEIGHBOURS: usize = 31;
+/// Standard deviations of the distance between two by which they keep further apart.
+const DEVIATIONS: f64 = 2.0;
+/// What another vehicle may accelerate with while it is not heard, and the speed that it may reach.
+const ACCELERATES_M_S2: f64 = 3.0;
+const FASTEST_M_S: f64 = 3.0;
+/// Who has not been heard for this long is no longer taken to go on as it did.
+const GOES_ON: Duration = Duration::from_millis(300);
+
+/// A place moves by this, and this many standard deviations, without a motion: a tag corrects it.
+const JUMP_M: f64 = 0.3;
+const JUMP_DEVIATIONS: f64 = 4.0;
+
+/// What a vehicle tells the others of itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbour {
+    /// The number of its MAVLink system, which is its own among all in the room.
+    pub system: u8,
+    /// When it was there, by the clock of whoever hears it.
+    pub at: Duration,
+    /// Its place in the common frame: right and forward.
+    pub place_m: Vector2<f64>,
+    /// Its velocity: right and forward.
+    pub velocity_m_s: Vector2<f64>,
+    /// Standard deviation of the place on the worse axis.
+    pub deviation_m: f64,
+    /// Whether it is in the air.
+    pub airborne: bool,
+}
+
+impl Neighbour {
+    /// Whether all its numbers are usable.
+    fn is_sound(&self) -> bool {
+        let numbers = self.place_m.iter().chain(&self.velocity_m_s);
+        numbers.chain([&self.deviation_m]).all(|number| number.is_finite())
+            && self.deviation_m >= 0.0
+    }
+
+    /// Where it is at a time if it went on for a while, and how far from there it can have got.
+    fn reach(&self, now: Duration) -> (Vector2<f64>, f64) {
+        let age = now.saturating_sub(self.at);
+        let age_s = age.as_secs_f64();
+        let place_m = self.place_m + self.velocity_m_s * age.min(GOES_ON).as_secs_f64();
+        let braked_m = self.velocity_m_s.norm() * age.saturating_sub(GOES_ON).as_secs_f64();
+        let accelerated_m = ACCELERATES_M_S2 * age_s * age_s / 2.0;
+        (place_m, (accelerated_m + braked_m).min(FASTEST_M_S * age_s))
+    }
+}
+
+/// Why what a vehicle tells of itself is not believed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NotHeard {
+    /// A number is not finite, or negative.
+    #[error("another vehicle tells nonsense of its place")]
+    Nonsense,
+    /// It cannot have got there. It is avoided where it was, and may be since.
+    #[error("another vehicle is where it cannot have got to")]
+    Jumps,
+    /// It has this vehicle's number.
+    #[error("another vehicle has the same number")]
+    Oneself,
+    /// There are more than [`MAX_NEIGHBOURS`].
+    #[error("more than {MAX_NEIGHBOURS} other vehicles cannot be kept apart from")]
+    TooMany,
+}
+
+/// The other vehicles, as they were heard last.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Neighbours(ArrayVec<Known, MAX_NEIGHBOURS>);
+
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    /// What was believed last.
+    told: Neighbour,
+    /// It was where it cannot have got to: until it says that it is on the ground it is not believed, and may be anywhere.
+    has_jumped: bool,
+}
+
+/// A vehicle that keeps away from others.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Oneself {
+    pub(crate) place_m: Vector2<f64>,
+    pub(crate) velocity_m_s: Vector2<f64>,
+    pub(crate) deviation_m: f64,
+    /// Least distance from others.
+    pub(crate) separation_m: f64,
+}
+
+/// Another vehicle as seen from here.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Other {
+    pub(crate) place_m: Vector2<f64>,
+    /// How near to its place this vehicle may come.
+    pub(crate) keep_m: f64,
+    /// Unit vector towards it.
+    outward: Vector2<f64>,
+    /// The line between the two: how far along that vector it is from the origin.
+    line_m: f64,
+}
+
+impl Other {
+    /// The line as a wall, as seen from a place.
+    pub(crate) fn wall(&self, place_m: Vector2<f64>) -> Wall {
+        let distance_m = self.line_m - place_m.dot(&self.outward);
+        Wall { distance_m, outward: self.outward }
+    }
+
+    /// Whether a straight way passes it too near. Who wants to where the other is has to wait.
+    fn blocks(&self, from_m: Vector2<f64>, to_m: Vector2<f64>) -> bool {
+        let way_m = to_m - from_m;
+        let along = (self.place_m - from_m).dot(&way_m) / way_m.norm_squared().max(f64::EPSILON);
+        let nearest_m = from_m + way_m * along.clamp(0.0, 1.0);
+        along > 0.0
+            && (nearest_m - self.place_m).norm() < self.keep_m
+            && (to_m - self.place_m).norm() > self.keep_m
+    }
+}
+
+/// All others in the air.
+pub(crate) type Others = ArrayVec<Other, MAX_NEIGHBOURS>;
+
+impl Neighbours {
+    /// Another vehicle tells of itself.
+    pub(crate) fn hear(&mut self, neighbour: Neighbour) -> Result<(), NotHeard> {
+        if !neighbour.is_sound() {
+            return Err(NotHeard::Nonsense);
+        }
+        let known = self.0.iter_mut().find(|known| known.told.system == neighbour.system);
+        let Some(Known { told, has_jumped }) = known else {
+            let known = Known { told: neighbour, has_jumped: false };
+            return self.0.try_push(known).map_err(|_| NotHeard::TooMany);
+        };
+        // An older message may come later.
+        if neighbour.at < told.at {
+            return Ok(());
+        }
+        let (place_m, reach_m) = told.reach(neighbour.at);
+        let deviation_m = told.deviation_m.hypot(neighbour.deviation_m);
+        let furthest_m = reach_m + JUMP_M + JUMP_DEVIATIONS * deviation_m;
+        *has_jumped |= (neighbour.place_m - place_m).norm() > furthest_m;
+        *has_jumped &= neighbour.airborne;
+        if *has_jumped {
+            return Err(NotHeard::Jumps);
+        }
+        *told = neighbour;
+        Ok(())
+    }
+
+    /// Those in the air, as seen by a vehicle.
+    pub(crate) fn others(&self, now: Duration, oneself: &Oneself) -> Others {
+        let flying = self.0.iter().filter(|known| known.told.airborne);
+        flying.map(|known| other(now, oneself, &known.told)).collect()
+    }
+}
+
+fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
+    let (place_m, reach_m) = neighbour.reach(now);
+    let way_m = place_m - oneself.place_m;
+    // Two in one place have to part in some direction.
+    let outward = way_m.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::x);
+    let to_rest_m = |speed_m_s: f64| Stopping::CAUTIOUS.way_m(speed_m_s.max(0.0));
+    let ours_m = to_rest_m(oneself.velocity_m_s.dot(&outward));
+    let theirs_m = to_rest_m(-neighbour.velocity_m_s.dot(&outward));
+    let deviation_m = oneself.deviation_m.hypot(neighbour.deviation_m);
+    let keep_m = oneself.separation_m + DEVIATIONS * deviation_m + reach_m;
+    let between_m = way_m.norm() - keep_m;
+    // Who is too fast to stop before the other has no more room for that.
+    let room_m = ((between_m + ours_m - theirs_m) / 2.0).min(between_m);
+    let line_m = oneself.place_m.dot(&outward) + room_m;
+    Other { place_m, keep_m, outward, line_m }
+}
+
+/// Where to fly to on the way to a target: there, or past who is in the way, on the right of it. As everybody keeps to the
+/// right, two that meet do not block each other.
+pub(crate) fn way_past(
+    from_m: Vector2<f64>,
+    target_m: Vector2<f64>,
+    others: &Others,
+) -> Vector2<f64> {
+    let distance_m = |other: &&Other| (other.place_m - from_m).norm();
+    let in_the_way = others.iter().filter(|other| other.blocks(from_m, target_m));
+    let nearest = in_the_way.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+    let Some(other) = nearest else { return target_m };
+    let away_m = distance_m(&other).max(f64::EPSILON);
+    // Along the tangent, clockwise as seen from above.
+    let sine = (other.keep_m / away_m).min(1.0);
+    let cosine = (1.0 - sine * sine).sqrt();
+    let ahead = other.outward;
+    let right = Vector2::new(ahead.y, -ahead.x);
+    from_m + (ahead * cosine + right * sine) * (target_m - from_m).norm()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,152 @@
+use super::*;
+
+const AT: Duration = Duration::from_secs(10);
+
+const ONESELF: Oneself = Oneself {
+    place_m: Vector2::new(0.0, 0.0),
+    velocity_m_s: Vector2::new(0.0, 0.0),
+    deviation_m: 0.0,
+    separation_m: 1.5,
+};
+
+fn neighbour(x_m: f64, y_m: f64) -> Neighbour {
+    Neighbour {
+        system: 2,
+        at: AT,
+        place_m: Vector2::new(x_m, y_m),
+        velocity_m_s: Vector2::zeros(),
+        deviation_m: 0.0,
+        airborne: true,
+    }
+}
+
+/// How far away the line between the two is.
+fn room_m(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> f64 {
+    other(now, oneself, neighbour).wall(oneself.place_m).distance_m
+}
+
+#[test]
+fn two_at_rest_share_what_is_left_between_them() {
+    assert!((room_m(AT, &ONESELF, &neighbour(3.0, 4.0)) - 1.75).abs() < 1e-9);
+    let wall = other(AT, &ONESELF, &neighbour(3.0, 4.0)).wall(Vector2::new(0.6, 0.8));
+    assert!((wall.distance_m - 0.75).abs() < 1e-9, "a metre nearer");
+    assert!((wall.outward - Vector2::new(0.6, 0.8)).norm() < 1e-9);
+    assert!(room_m(AT, &ONESELF, &neighbour(1.0, 0.0)) < 0.0, "too near");
+    assert!(room_m(AT, &ONESELF, &neighbour(0.0, 0.0)) < 0.0, "in one place");
+}
+
+/// What each of two that know the same of each other has is together what there is.
+#[test]
+fn both_draw_the_same_line() {
+    let (velocity_m_s, other_m_s) = (Vector2::new(0.8, 0.3), Vector2::new(-0.2, 0.6));
+    let (oneself, there) = (
+        Oneself { velocity_m_s, deviation_m: 0.3, ..ONESELF },
+        Neighbour { velocity_m_s: other_m_s, deviation_m: 0.4, ..neighbour(6.0, 0.0) },
+    );
+    let seen_from_there = (
+        Oneself { place_m: there.place_m, velocity_m_s: other_m_s, deviation_m: 0.4, ..ONESELF },
+        Neighbour { velocity_m_s, deviation_m: 0.3, ..neighbour(0.0, 0.0) },
+    );
+    let [ours_m, theirs_m] = [(oneself, there), seen_from_there]
+        .map(|(oneself, neighbour)| room_m(AT, &oneself, &neighbour));
+    assert!((ours_m + theirs_m - (6.0 - 1.5 - 2.0 * 0.5)).abs() < 1e-9, "{ours_m} {theirs_m}");
+    // Whoever is fast has what it needs to stop, and half of what both do not need.
+    let [ours_stop_m, theirs_stop_m] = [0.8, 0.2].map(|m_s| Stopping::CAUTIOUS.way_m(m_s));
+    assert!(((ours_m - ours_stop_m) - (theirs_m - theirs_stop_m)).abs() < 1e-9);
+}
+
+#[test]
+fn nobody_has_room_beyond_the_separation() {
+    let fast = Oneself { velocity_m_s: Vector2::new(2.0, 0.0), ..ONESELF };
+    assert!((room_m(AT, &fast, &neighbour(2.5, 0.0)) - 1.0).abs() < 1e-9);
+    assert!((room_m(AT, &fast, &neighbour(1.0, 0.0)) + 0.5).abs() < 1e-9);
+}
+
+#[test]
+fn who_is_not_heard_goes_on_for_a_moment_and_may_then_be_anywhere() {
+    let flying = Neighbour { velocity_m_s: Vector2::new(1.0, 0.0), ..neighbour(2.0, 0.0) };
+    for (age_ms, ahead_m, reach_m) in
+        [(0, 0.0, 0.0), (200, 0.2, 0.06), (300, 0.3, 0.135), (500, 0.3, 0.575), (4000, 0.3, 12.0)]
+    {
+        let (place_m, found_m) = flying.reach(AT + Duration::from_millis(age_ms));
+        assert!((place_m.x - 2.0 - ahead_m).abs() < 1e-9, "{age_ms} {place_m}");
+        assert!((found_m - reach_m).abs() < 1e-9, "{age_ms} {found_m}");
+    }
+    let early = AT.saturating_sub(Duration::from_secs(1));
+    assert_eq!(flying.reach(early), (flying.place_m, 0.0), "its clock may be ahead");
+}
+
+fn heard(neighbours: &[Neighbour]) -> (Neighbours, Vec<Result<(), NotHeard>>) {
+    let mut known = Neighbours::default();
+    let results = neighbours.iter().map(|neighbour| known.hear(*neighbour)).collect();
+    (known, results)
+}
+
+#[test]
+fn only_those_in_the_air_are_avoided_and_the_newest_counts() {
+    let landed = Neighbour { system: 3, airborne: false, ..neighbour(0.0, 2.0) };
+    let moved = Neighbour { at: AT + Duration::from_millis(100), ..neighbour(2.1, 0.0) };
+    let (known, results) = heard(&[neighbour(2.0, 0.0), landed, moved, neighbour(1.9, 0.0)]);
+    assert_eq!(results, [Ok(()); 4]);
+    let others = known.others(moved.at, &ONESELF);
+    assert_eq!(others.len(), 1);
+    assert!((others[0].place_m.x - 2.1).abs() < 1e-9);
+}
+
+#[test]
+fn who_is_where_it_cannot_have_got_to_stays_where_it_was() {
+    let after = |ms, x_m| Neighbour { at: AT + Duration::from_millis(ms), ..neighbour(x_m, 0.0) };
+    let result = |next| heard(&[neighbour(2.0, 0.0), next]).1[1];
+    assert_eq!(result(after(100, 2.3)), Ok(()), "a tag may have corrected it");
+    assert_eq!(result(after(100, 2.4)), Err(NotHeard::Jumps));
+    assert_eq!(result(after(1000, 3.7)), Ok(()), "meanwhile it may have got there");
+    assert_eq!(result(after(1000, 3.9)), Err(NotHeard::Jumps));
+    let uncertain = Neighbour { deviation_m: 0.5, ..after(100, 4.3) };
+    assert_eq!(result(uncertain), Ok(()), "it was not exactly known");
+    let (known, results) = heard(&[neighbour(2.0, 0.0), after(100, 9.0), after(5000, 9.0)]);
+    assert_eq!(results[1..], [Err(NotHeard::Jumps); 2], "also when it could have got there");
+    assert!((known.others(AT, &ONESELF)[0].place_m.x - 2.0).abs() < 1e-9);
+    let landed = Neighbour { airborne: false, ..after(200, 9.0) };
+    let (known, results) = heard(&[neighbour(2.0, 0.0), after(100, 9.0), landed, after(300, 9.0)]);
+    assert_eq!(results[2..], [Ok(()); 2], "on the ground it begins anew");
+    assert!((known.others(AT, &ONESELF)[0].place_m.x - 9.0).abs() < 1e-9);
+}
+
+#[test]
+fn nonsense_is_not_heard_nor_more_than_fit() {
+    let nan = Vector2::new(f64::NAN, 0.0);
+    for nonsense in [
+        Neighbour { place_m: nan, ..neighbour(1.0, 0.0) },
+        Neighbour { velocity_m_s: nan, ..neighbour(1.0, 0.0) },
+        Neighbour { deviation_m: f64::INFINITY, ..neighbour(1.0, 0.0) },
+        Neighbour { deviation_m: -0.1, ..neighbour(1.0, 0.0) },
+    ] {
+        assert_eq!(heard(&[nonsense]).1, [Err(NotHeard::Nonsense)], "{nonsense:?}");
+    }
+    let many: Vec<Neighbour> =
+        (1..=32).map(|system| Neighbour { system, ..neighbour(1.0, 0.0) }).collect();
+    let (known, results) = heard(&many);
+    assert_eq!(results[MAX_NEIGHBOURS - 1..], [Ok(()), Err(NotHeard::TooMany)]);
+    assert_eq!(known.others(AT, &ONESELF).len(), MAX_NEIGHBOURS);
+}
+
+/// Where somebody at the origin flies on its way forward.
+fn past(target_m: f64, neighbours: &[(f64, f64)]) -> Vector2<f64> {
+    let others = neighbours.iter().map(|(x_m, y_m)| other(AT, &ONESELF, &neighbour(*x_m, *y_m)));
+    way_past(Vector2::zeros(), Vector2::new(0.0, target_m), &others.collect())
+}
+
+#[test]
+fn who_is_in_the_way_is_passed_on_its_right() {
+    let straight = Vector2::new(0.0, 6.0);
+    assert_eq!(past(6.0, &[]), straight);
+    assert_eq!(past(6.0, &[(1.6, 3.0), (-1.6, 3.0), (0.0, -2.0)]), straight, "none is in the way");
+    assert_eq!(past(6.0, &[(0.0, 5.0)]), straight, "it is where somebody else is, and waits");
+    assert_eq!(past(6.0, &[(0.0, 8.0)]), straight, "behind the target");
+    // Along the tangent: 30° to the right, as the sine is half.
+    let tangent = Vector2::new(3.0, 27.0_f64.sqrt());
+    assert!((past(6.0, &[(0.0, 3.0)]) - tangent).norm() < 1e-9);
+    assert!((past(6.0, &[(0.0, 3.0), (0.0, 4.2)]) - tangent).norm() < 1e-9, "the nearest decides");
+    // Nearer than the tangent, it goes aside.
+    assert!((past(6.0, &[(0.0, 1.2)]) - Vector2::new(6.0, 0.0)).norm() < 1e-9);
+}

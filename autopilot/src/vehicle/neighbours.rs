@@ -1,0 +1,63 @@
+//! Other vehicles: what this one tells them, and what it hears of them.
+
+use std::time::Duration;
+
+use estimator::{Prediction, Start};
+
+use super::{Refused, Vehicle};
+use crate::agent::AgentCommand;
+use crate::safety::{Situation, Veto};
+use crate::separation::{Neighbour, NotHeard, Oneself};
+
+impl Vehicle {
+    /// Another vehicle tells of itself.
+    pub(super) fn hear(&mut self, neighbour: Neighbour) -> Result<(), Refused> {
+        if neighbour.system == self.config.system {
+            return Err(NotHeard::Oneself.into());
+        }
+        Ok(self.neighbours.hear(neighbour)?)
+    }
+
+    /// What the others need to know of this vehicle; `None` until it is heard.
+    pub fn as_neighbour(&self, now: Duration) -> Option<Neighbour> {
+        self.session.silence(now)?;
+        let state = self.state(now);
+        Some(Neighbour {
+            system: self.config.system,
+            at: now,
+            place_m: state.position_m.xy(),
+            velocity_m_s: state.velocity_m_s.xy(),
+            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+            airborne: !self.on_ground(),
+        })
+    }
+
+    /// In a common frame the next flight starts where the last one ended, and as exactly as that is known.
+    pub(super) fn start_here(&mut self, now: Duration) {
+        let state = self.state(now);
+        let deviation_m = self.flight.estimator.horizontal_deviation_m(now);
+        if let Some(start) = &mut self.config.estimator.start {
+            let place_m = state.position_m.xy();
+            *start = Start { place_m, heading_deg: state.yaw_deg, deviation_m };
+        }
+    }
+
+    /// A command that the safety monitor has left, kept apart from other vehicles.
+    pub(super) fn kept_apart(
+        &mut self,
+        now: Duration,
+        command: AgentCommand,
+        state: &Prediction,
+        situation: &Situation,
+    ) -> (AgentCommand, Option<Veto>) {
+        let oneself = Oneself {
+            place_m: state.position_m.xy(),
+            velocity_m_s: state.velocity_m_s.xy(),
+            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+            separation_m: self.config.separation_m,
+        };
+        let others = self.neighbours.others(now, &oneself);
+        let limits = self.course_limits();
+        self.flight.safety.keep_apart(command, situation, &others, &limits)
+    }
+}
