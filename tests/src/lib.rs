@@ -5,6 +5,7 @@ pub mod airframes;
 mod alone;
 pub mod campaign;
 pub mod cross_checks;
+pub mod fleet;
 pub mod healthy;
 pub mod landings;
 pub mod rules;

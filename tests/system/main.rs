@@ -15,6 +15,7 @@ mod cross_checks;
 mod dependencies;
 mod estimate;
 mod faults;
+mod fleet;
 mod ground_station;
 mod keyboard;
 mod lateness;

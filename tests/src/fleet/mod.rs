@@ -1,0 +1,275 @@
+//! Several vehicles in one simulated time, that tell each other where they are.
+//!
+//! The same configuration gives the same flights, bit for bit.
+
+mod random;
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use ardrone_pilot::drive::{Driver, POLL, Passed, Simulated};
+use autopilot::outcome::Outcome;
+use autopilot::separation::Neighbour;
+use autopilot::vehicle::{
+    CannotFly, FlightEvent, Input, Operator, OperatorOrder, Start, TICK, Telemetry, Vehicle,
+    VehicleConfig,
+};
+use kinematics::world_from_body;
+use mock_drone::firmware::Phase;
+use mock_drone::{Truth, WorldConfig};
+use nalgebra::{Vector2, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// One vehicle of a fleet.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// Where it stands at the start, in the common frame.
+    pub start: Start,
+    /// Its plan, whose targets are places in the common frame.
+    pub plan: String,
+    /// The drone, the air around it, and the faults of both.
+    pub world: WorldConfig,
+    /// Its vehicle; number and start are set.
+    pub pilot: VehicleConfig,
+    /// Orders of its operator with their times, in the order of time.
+    pub orders: Vec<(Duration, OperatorOrder)>,
+}
+
+/// How messages between vehicles travel.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Air {
+    /// Share of them that is lost.
+    pub loss: f64,
+    /// Delay of each.
+    pub delay: Duration,
+    /// From when to when none arrives.
+    pub silent: Option<[Duration; 2]>,
+    /// From when on the first vehicle tells a wrong place, and how far that is off.
+    pub lie: Option<(Duration, Vector2<f64>)>,
+    /// Seed of the losses.
+    pub seed: u64,
+}
+
+/// Vehicles in one room.
+#[derive(Debug, Clone, Default)]
+pub struct Fleet {
+    /// The vehicles.
+    pub members: Vec<Member>,
+    /// The messages between them.
+    pub air: Air,
+}
+
+/// What became of one vehicle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemberFlight {
+    /// How its flight ended; none if it did not within the limit.
+    pub outcome: Option<Outcome>,
+    /// When.
+    pub ended: Duration,
+    /// Its events with their times.
+    pub events: Vec<(Duration, FlightEvent)>,
+}
+
+/// Two vehicles in the air, and how near they were to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Their numbers.
+    pub who: [usize; 2],
+    /// When.
+    pub at: Duration,
+    /// Their distance across, in truth.
+    pub across_m: f64,
+}
+
+/// The flights of a fleet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FleetFlight {
+    /// Those of the vehicles, in their order.
+    pub members: Vec<MemberFlight>,
+    /// Where they are at the end, in truth.
+    pub places_m: Vec<Vector3<f64>>,
+    /// The least distance of two in the air; none if there never were two.
+    pub nearest: Option<Nearest>,
+    /// Whether all were on the ground at the end.
+    pub is_down: bool,
+}
+
+impl FleetFlight {
+    /// Whether all have flown their plans to the end.
+    pub fn is_complete(&self) -> bool {
+        self.members.iter().all(|member| member.outcome == Some(Outcome::Completed))
+    }
+
+    /// When the last one was down.
+    pub fn duration(&self) -> Duration {
+        self.members.iter().map(|member| member.ended).max().unwrap_or_default()
+    }
+}
+
+struct Flying {
+    driver: Driver<Simulated>,
+    start: Start,
+    flight: MemberFlight,
+    orders: VecDeque<(Duration, OperatorOrder)>,
+    /// What was told to it, with the time of arrival.
+    mail: VecDeque<(Duration, Neighbour)>,
+}
+
+impl Flying {
+    /// Its true place in the common frame.
+    fn place_m(&self) -> Vector3<f64> {
+        let truth = self.driver.world().truth();
+        let turned = world_from_body(truth.position_m.xy(), self.start.heading_deg);
+        (turned + self.start.place_m).push(truth.position_m.z)
+    }
+
+    fn is_up(&self) -> bool {
+        let Truth { phase, position_m, .. } = self.driver.world().truth();
+        !matches!(phase, Phase::Landed) && position_m.z > 0.1
+    }
+
+    /// Whether it flies no more, and nothing is ordered.
+    fn is_over(&self) -> bool {
+        let is_ended = self.flight.outcome.is_some() && self.driver.vehicle.is_at_rest();
+        is_ended && self.orders.is_empty()
+    }
+
+    /// Passes on what is due. What is refused changes nothing.
+    fn receive(&mut self, now: Duration) {
+        while self.orders.front().is_some_and(|(at, _)| *at <= now) {
+            if let Some((_, order)) = self.orders.pop_front() {
+                _ = self.driver.order(Operator::TERMINAL, order);
+            }
+        }
+        while self.mail.front().is_some_and(|(at, _)| *at <= now) {
+            if let Some((_, neighbour)) = self.mail.pop_front() {
+                _ = self.driver.handle(Input::Neighbour(neighbour), |_, _| {});
+            }
+        }
+    }
+
+    /// Lets it do what is due; returns whether it has ticked.
+    fn step(&mut self) -> bool {
+        let flight = &mut self.flight;
+        let ticked = self.driver.step(|at, passed| match passed {
+            Passed::Told(Telemetry::Event(event)) => flight.events.push((at, event)),
+            Passed::Told(Telemetry::Ended(outcome, _)) => {
+                (flight.outcome, flight.ended) = (Some(outcome), at);
+            }
+            _ => {}
+        });
+        self.driver.pass();
+        ticked
+    }
+}
+
+impl Fleet {
+    /// Flies all plans to their ends, or for so long.
+    ///
+    /// # Errors
+    /// [`CannotFly`] if a plan cannot be flown.
+    ///
+    /// # Panics
+    /// If a plan is none.
+    pub fn fly(&self, limit: Duration) -> Result<FleetFlight, CannotFly> {
+        self.fly_watched(limit, |_, _| {})
+    }
+
+    /// As [`Fleet::fly`]; `watch` gets the true places in the common frame in every tick.
+    ///
+    /// # Errors
+    /// As [`Fleet::fly`].
+    ///
+    /// # Panics
+    /// As [`Fleet::fly`].
+    pub fn fly_watched(
+        &self,
+        limit: Duration,
+        mut watch: impl FnMut(Duration, &[Vector3<f64>]),
+    ) -> Result<FleetFlight, CannotFly> {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.air.seed);
+        let mut flying = Vec::new();
+        for (system, member) in (1..).zip(&self.members) {
+            let mut config = VehicleConfig { system, ..member.pilot.clone() };
+            config.estimator.start = Some(member.start);
+            let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
+            flying.push(Flying {
+                driver: Driver::new(vehicle, &member.world),
+                start: member.start,
+                flight: MemberFlight { outcome: None, ended: limit, events: Vec::new() },
+                orders: member.orders.iter().cloned().collect(),
+                mail: VecDeque::new(),
+            });
+        }
+        let mut nearest: Option<Nearest> = None;
+        let mut now = Duration::ZERO;
+        while now < limit && !flying.iter().all(Flying::is_over) {
+            let mut told = Vec::new();
+            for (number, member) in flying.iter_mut().enumerate() {
+                member.receive(now);
+                if member.step() {
+                    told.extend(member.driver.vehicle.as_neighbour(now).map(|of| (number, of)));
+                }
+            }
+            for (from, mut neighbour) in told {
+                if let Some((_, off_m)) = self.air.lie.filter(|(at, _)| from == 0 && now >= *at) {
+                    neighbour.place_m += off_m;
+                }
+                for (number, member) in flying.iter_mut().enumerate() {
+                    let is_silent =
+                        self.air.silent.is_some_and(|[from, to]| (from..to).contains(&now));
+                    let is_lost = rng.random::<f64>() < self.air.loss;
+                    if number != from && !is_lost && !is_silent {
+                        member.mail.push_back((now + self.air.delay, neighbour));
+                    }
+                }
+            }
+            if now.as_millis().is_multiple_of(TICK.as_millis()) {
+                let places_m: Vec<_> = flying.iter().map(Flying::place_m).collect();
+                watch(now, &places_m);
+                nearest = nearer(nearest, now, &flying, &places_m);
+            }
+            now += POLL;
+        }
+        let is_down = !flying.iter().any(Flying::is_up);
+        let places_m = flying.iter().map(Flying::place_m).collect();
+        let members = flying.into_iter().map(|member| member.flight).collect();
+        Ok(FleetFlight { members, places_m, nearest, is_down })
+    }
+}
+
+fn nearer(
+    known: Option<Nearest>,
+    at: Duration,
+    flying: &[Flying],
+    places_m: &[Vector3<f64>],
+) -> Option<Nearest> {
+    let up: Vec<usize> = (0..flying.len()).filter(|number| flying[*number].is_up()).collect();
+    let pairs = up.iter().flat_map(|a| up.iter().map(move |b| [*a, *b])).filter(|[a, b]| a < b);
+    let distances = pairs.map(|[a, b]| {
+        let across: Vector2<f64> = places_m[a].xy() - places_m[b].xy();
+        Nearest { who: [a, b], at, across_m: across.norm() }
+    });
+    known.into_iter().chain(distances).min_by(|a, b| a.across_m.total_cmp(&b.across_m))
+}
+
+/// Vehicles on a circle, each of which flies to the opposite place: through one point.
+pub fn crossing(count: usize, radius_m: f64, seed: u64) -> Fleet {
+    let members = (0..count).map(|number| {
+        #[expect(clippy::cast_precision_loss, reason = "a fleet is small")]
+        let angle_deg = 360.0 * number as f64 / count as f64;
+        let place_m = world_from_body(Vector2::new(0.0, -radius_m), angle_deg);
+        let mut world = WorldConfig::default();
+        world.drone.seed = seed * 100 + number as u64;
+        let [x_m, y_m] = (-place_m).into();
+        Member {
+            start: Start { place_m, heading_deg: angle_deg, deviation_m: 0.0 },
+            plan: format!("takeoff\ngoto {x_m} {y_m} 0.5 0\nland\n"),
+            world,
+            pilot: VehicleConfig::default(),
+            orders: Vec::new(),
+        }
+    });
+    Fleet { members: members.collect(), air: Air { seed, ..Air::default() } }
+}

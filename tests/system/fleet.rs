@@ -1,0 +1,161 @@
+//! Vehicles in one room keep apart, whatever they are told to do and whatever becomes of their messages.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
+use autopilot::vehicle::{Heading, Horizontal, Vertical};
+use kinematics::Sticks;
+use nalgebra::Vector2;
+use system_tests::fleet::{Fleet, FleetFlight, Member, crossing};
+
+/// No two are ever nearer to each other across, in truth.
+const NEAREST_M: f64 = 0.8;
+const LIMIT: Duration = Duration::from_mins(4);
+/// A separation that separates nobody.
+const OFF_M: f64 = -1e3;
+
+fn flown(fleet: &Fleet) -> FleetFlight {
+    fleet.fly(LIMIT).unwrap()
+}
+
+fn nearest_m(flight: &FleetFlight) -> f64 {
+    flight.nearest.map_or(f64::INFINITY, |nearest| nearest.across_m)
+}
+
+fn keeps_apart(flight: &FleetFlight) -> bool {
+    flight.is_down && nearest_m(flight) > NEAREST_M
+}
+
+fn without_separation(mut fleet: Fleet) -> Fleet {
+    fleet.members.iter_mut().for_each(|member| member.pilot.separation_m = OFF_M);
+    fleet
+}
+
+#[test]
+fn all_that_cross_one_point_arrive() {
+    for count in 2..=6 {
+        for seed in 0..8 {
+            let flight = flown(&crossing(count, 3.0, seed));
+            assert!(keeps_apart(&flight) && flight.is_complete(), "{count} {seed}: {flight:?}");
+            let duration_s = flight.duration().as_secs_f64();
+            assert!(duration_s < 45.0, "{count} {seed}: {duration_s}");
+        }
+    }
+    let met = (0..4)
+        .filter(|seed| nearest_m(&flown(&without_separation(crossing(2, 3.0, *seed)))) < NEAREST_M);
+    assert_eq!(met.count(), 4, "who is not kept apart meets");
+}
+
+#[test]
+fn random_fleets_keep_apart_and_all_come_down() {
+    let bad = (0..120).filter(|seed| !keeps_apart(&flown(&Fleet::random(*seed))));
+    assert_eq!(bad.collect::<Vec<u64>>(), Vec::<u64>::new());
+    let met = (0..20)
+        .filter(|seed| nearest_m(&flown(&without_separation(Fleet::random(*seed)))) < NEAREST_M);
+    assert!(met.count() > 8, "who is not kept apart meets");
+}
+
+#[test]
+fn the_same_fleet_flies_the_same_way_twice() {
+    let fleet = Fleet::random(3);
+    assert_eq!(flown(&fleet), flown(&fleet));
+}
+
+/// Two that hover 3 m apart; the first does as it is ordered after a while.
+fn side_by_side(orders: Vec<(Duration, OperatorOrder)>) -> Fleet {
+    let member = |x_m: f64, seed: u64| {
+        let mut member: Member = crossing(1, 0.0, seed).members.remove(0);
+        let place_m = Vector2::new(x_m, 0.0);
+        member.start = Start { place_m, heading_deg: 0.0, deviation_m: 0.0 };
+        member.plan = format!("takeoff\nsetStayTime 25\ngoto {x_m} 0 0.5 0\nland\n");
+        member
+    };
+    let mut first = member(0.0, 1);
+    first.orders = orders;
+    Fleet { members: vec![first, member(3.0, 2)], ..Fleet::default() }
+}
+
+/// Orders from the tenth second on, every tenth of a second for so long, and then to go on.
+fn repeated(order: &OperatorOrder, time_s: u64) -> Vec<(Duration, OperatorOrder)> {
+    let at = |tenths: u64| Duration::from_millis(10_000 + 100 * tenths);
+    let orders = (0..10 * time_s).map(|tenths| (at(tenths), order.clone()));
+    orders.chain([(at(10 * time_s + 10), OperatorOrder::Resume)]).collect()
+}
+
+fn vetoed(flight: &FleetFlight, number: usize, veto: Veto) -> bool {
+    let events = &flight.members[number].events;
+    events.iter().any(|(_, event)| *event == FlightEvent::Veto(veto))
+}
+
+#[test]
+fn sticks_that_are_held_towards_another_vehicle_do_not_reach_it() {
+    for roll in [0.3, 1.0] {
+        let sticks = OperatorOrder::Steer(Sticks { roll, ..Sticks::default() });
+        let fleet = side_by_side(repeated(&sticks, 10));
+        let flight = flown(&fleet);
+        assert!(keeps_apart(&flight), "{roll}: {flight:?}");
+        assert!(vetoed(&flight, 0, Veto::KeepsApart), "{roll}: {flight:?}");
+        assert!(nearest_m(&flown(&without_separation(fleet))) < NEAREST_M, "{roll}");
+    }
+}
+
+#[test]
+fn set_points_that_lead_through_another_vehicle_lead_past_it() {
+    for horizontal in
+        [Horizontal::Place { x_m: 6.0, y_m: 0.0 }, Horizontal::Velocity { x_m_s: 1.0, y_m_s: 0.0 }]
+    {
+        let setpoint =
+            Setpoint { horizontal, vertical: Vertical::Climb(0.0), heading: Heading::Keep };
+        let mut orders = repeated(&OperatorOrder::Setpoint(setpoint), 10);
+        orders[0].1 = OperatorOrder::Follow(setpoint);
+        let fleet = side_by_side(orders);
+        let flight = flown(&fleet);
+        assert!(keeps_apart(&flight), "{horizontal:?}: {flight:?}");
+        assert!(nearest_m(&flown(&without_separation(fleet))) < NEAREST_M, "{horizontal:?}");
+    }
+}
+
+/// Whoever is not heard may be anywhere: those that are near to where it was land, and others do not.
+#[test]
+fn a_silence_lands_those_that_cannot_be_kept_apart() {
+    let silence = |from_s, time_s| {
+        let mut fleet = side_by_side(Vec::new());
+        fleet.air.silent = Some([from_s, from_s + time_s].map(Duration::from_secs));
+        flown(&fleet)
+    };
+    let flight = silence(12, 8);
+    assert!(keeps_apart(&flight), "{flight:?}");
+    for member in &flight.members {
+        let reason = "another vehicle was too near, or silent".to_owned();
+        assert_eq!(member.outcome, Some(Outcome::Failsafe { reason }));
+    }
+    assert!(silence(12, 1).is_complete(), "a short one is no danger");
+}
+
+/// Whoever tells that it is where it cannot have got to is avoided where it may be.
+#[test]
+fn a_vehicle_that_lies_of_its_place_is_not_believed() {
+    let sticks = OperatorOrder::Steer(Sticks { roll: 0.4, ..Sticks::default() });
+    let mut fleet = side_by_side(repeated(&sticks, 10));
+    fleet.air.lie = Some((Duration::from_secs(10), Vector2::new(-6.0, 0.0)));
+    let flight = flown(&fleet);
+    assert!(flight.is_down && vetoed(&flight, 1, Veto::Crowded), "{flight:?}");
+}
+
+/// The second flight starts where the first one has landed, 4 m from the surveyed start, and turned.
+#[test]
+fn targets_are_places_in_the_common_frame_also_in_the_next_flight() {
+    let mut fleet = crossing(1, 2.0, 5);
+    fleet.members[0].start.heading_deg = 90.0;
+    fleet.members[0].plan = "takeoff\ngoto 0 2 0.5 45\nland\n".to_owned();
+    let there_m = flown(&fleet).places_m[0].xy();
+    assert!((there_m - Vector2::new(0.0, 2.0)).norm() < 0.5, "{there_m}");
+    let back = system_tests::plan("takeoff\ngoto -1.5 0 0.5 0\nland\n");
+    let start = OperatorOrder::Start { when_ready: true };
+    fleet.members[0].orders = [(30, OperatorOrder::Load(back)), (31, start)]
+        .map(|(s, order)| (Duration::from_secs(s), order))
+        .to_vec();
+    let there_m = flown(&fleet).places_m[0].xy();
+    assert!((there_m - Vector2::new(-1.5, 0.0)).norm() < 0.7, "{there_m}");
+}
