@@ -226,7 +226,10 @@ mod tests {
         assert!((left_before_another(3.0) - 1.0).abs() < 1e-9);
         assert!((left_before_another(2.45) + 1.0).abs() < 1e-9);
         let way_m = 0.2 * 2.0 + 4.0 / (2.0 * 2.2);
-        assert!(left_before_another(1.5 + way_m - 0.25).abs() < 1e-9, "half a band beyond the line");
+        assert!(
+            left_before_another(1.5 + way_m - 0.25).abs() < 1e-9,
+            "half a band beyond the line"
+        );
     }
 
     #[test]
