@@ -30,7 +30,7 @@ const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const OPERATORS: &str = "autopilot/src/vehicle/operators.rs";
 const MANUAL: &str = "autopilot/src/vehicle/manual.rs";
 const MANUAL_ORDERS: &str = "autopilot/src/vehicle/manual_orders.rs";
-const SETPOINT: &str = "autopilot/src/vehicle/setpoint.rs";
+const STOPPING: &str = "autopilot/src/safety/stopping.rs";
 pub(super) const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
 const TAGS: &str = "estimator/src/world/mod.rs";
@@ -357,7 +357,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     layered(
         mutant(
             "station: set-points lead out of the fence",
-            SETPOINT,
+            STOPPING,
             "(velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
             "(0.0 * velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
         ),
