@@ -24,6 +24,8 @@ const FASTEST_M_S: f64 = 3.0;
 /// Who has not been heard for this long is no longer taken to go on as it did.
 const GOES_ON: Duration = Duration::from_millis(300);
 
+/// A vehicle that has not been heard for this long is silent: nobody takes off where it is.
+const SILENT: Duration = Duration::from_secs(2);
 /// A place moves by this, and this many standard deviations, without a motion: a tag corrects it.
 const JUMP_M: f64 = 0.3;
 const JUMP_DEVIATIONS: f64 = 4.0;
@@ -163,6 +165,26 @@ impl Neighbours {
         Ok(())
     }
 
+    /// Whether this one has told of itself, not too long ago.
+    pub(crate) fn is_heard(&self, system: u8, now: Duration) -> bool {
+        let known = self.0.iter().find(|known| known.told.system == system);
+        known.is_some_and(|known| now.saturating_sub(known.told.at) <= SILENT && !known.has_jumped)
+    }
+
+    /// Those in the air from which a vehicle is not separated, with their distances across.
+    pub(crate) fn too_near(
+        &self,
+        now: Duration,
+        oneself: &Oneself,
+    ) -> impl Iterator<Item = (u8, f64)> {
+        let flying = self.0.iter().map(|known| &known.told).filter(|told| told.airborne);
+        flying.filter_map(move |told| {
+            let other = other(now, oneself, told);
+            let away_m = (other.place_m - oneself.place_m).norm();
+            (other.wall(oneself.place_m).distance_m < 0.0).then_some((told.system, away_m))
+        })
+    }
+
     /// Those in the air, as seen by a vehicle.
     pub(crate) fn others(&self, now: Duration, oneself: &Oneself) -> Others {
         let flying = self.0.iter().filter(|known| known.told.airborne);
@@ -181,8 +203,10 @@ fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
     let deviation_m = oneself.deviation_m.hypot(neighbour.deviation_m);
     let keep_m = oneself.separation_m + DEVIATIONS * deviation_m + reach_m;
     let between_m = way_m.norm() - keep_m;
-    // Who is too fast to stop before the other has no more room for that.
-    let room_m = ((between_m + ours_m - theirs_m) / 2.0).min(between_m);
+    // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way
+    // back.
+    let most_m = between_m.max(between_m / 2.0);
+    let room_m = ((between_m + ours_m - theirs_m) / 2.0).min(most_m);
     let line_m = oneself.place_m.dot(&outward) + room_m;
     Other { place_m, keep_m, outward, line_m }
 }

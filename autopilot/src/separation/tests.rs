@@ -59,7 +59,7 @@ fn both_draw_the_same_line() {
 fn nobody_has_room_beyond_the_separation() {
     let fast = Oneself { velocity_m_s: Vector2::new(2.0, 0.0), ..ONESELF };
     assert!((room_m(AT, &fast, &neighbour(2.5, 0.0)) - 1.0).abs() < 1e-9);
-    assert!((room_m(AT, &fast, &neighbour(1.0, 0.0)) + 0.5).abs() < 1e-9);
+    assert!((room_m(AT, &fast, &neighbour(1.0, 0.0)) + 0.25).abs() < 1e-9, "each goes half of it");
 }
 
 #[test]
@@ -149,4 +149,20 @@ fn who_is_in_the_way_is_passed_on_its_right() {
     assert!((past(6.0, &[(0.0, 3.0), (0.0, 4.2)]) - tangent).norm() < 1e-9, "the nearest decides");
     // Nearer than the tangent, it goes aside.
     assert!((past(6.0, &[(0.0, 1.2)]) - Vector2::new(6.0, 0.0)).norm() < 1e-9);
+}
+
+#[test]
+fn who_is_silent_or_flies_near_is_known_before_a_take_off() {
+    let after = |ms| AT + Duration::from_millis(ms);
+    let jumped = Neighbour { at: after(100), ..neighbour(9.0, 0.0) };
+    let (known, _) = heard(&[neighbour(2.0, 0.0)]);
+    assert!(known.is_heard(2, after(2000)) && !known.is_heard(2, after(2001)));
+    assert!(!known.is_heard(3, AT), "never heard");
+    assert!(!heard(&[neighbour(2.0, 0.0), jumped]).0.is_heard(2, after(100)), "not believed");
+    let near = |neighbour: Neighbour| -> Vec<(u8, f64)> {
+        heard(&[neighbour]).0.too_near(AT, &ONESELF).collect()
+    };
+    assert_eq!(near(neighbour(1.4, 0.0)), [(2, 1.4)]);
+    assert_eq!(near(neighbour(1.6, 0.0)), []);
+    assert_eq!(near(Neighbour { airborne: false, ..neighbour(1.0, 0.0) }), []);
 }

@@ -101,6 +101,8 @@ pub struct VehicleConfig {
     pub limits: FlightLimits,
     /// Least distance from other vehicles, across, in metres.
     pub separation_m: f64,
+    /// Numbers of the other vehicles in the room: while one of them is not heard, this one does not take off.
+    pub peers: Vec<u8>,
     /// Whether the drone's configuration is read back over the control port before take-off.
     pub read_back: bool,
     /// Navdata rate requested from the drone.
@@ -139,6 +141,7 @@ impl Default for VehicleConfig {
             system: 1,
             limits: FlightLimits::default(),
             separation_m: 1.5,
+            peers: Vec::new(),
             read_back: true,
             navdata: NavdataRate::default(),
             gps: false,

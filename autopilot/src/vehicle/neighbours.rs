@@ -18,16 +18,17 @@ impl Vehicle {
         Ok(self.neighbours.hear(neighbour)?)
     }
 
-    /// What the others need to know of this vehicle; `None` until it is heard.
+    /// What the others need to know of this vehicle, as it was measured last: where a drone that is not heard has got to since
+    /// nobody knows, this vehicle no better than the others. `None` until it is heard.
     pub fn as_neighbour(&self, now: Duration) -> Option<Neighbour> {
         self.session.silence(now)?;
-        let state = self.state(now);
+        let estimate = self.flight.estimator.estimate();
         Some(Neighbour {
             system: self.config.system,
-            at: now,
-            place_m: state.position_m.xy(),
-            velocity_m_s: state.velocity_m_s.xy(),
-            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+            at: estimate.at,
+            place_m: estimate.position_m.xy(),
+            velocity_m_s: estimate.velocity_m_s.xy(),
+            deviation_m: self.flight.estimator.horizontal_deviation_m(estimate.at),
             airborne: !self.on_ground(),
         })
     }
@@ -42,6 +43,16 @@ impl Vehicle {
         }
     }
 
+    /// This vehicle among the others.
+    pub(super) fn oneself(&self, now: Duration, state: &Prediction) -> Oneself {
+        Oneself {
+            place_m: state.position_m.xy(),
+            velocity_m_s: state.velocity_m_s.xy(),
+            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+            separation_m: self.config.separation_m,
+        }
+    }
+
     /// A command that the safety monitor has left, kept apart from other vehicles.
     pub(super) fn kept_apart(
         &mut self,
@@ -50,13 +61,7 @@ impl Vehicle {
         state: &Prediction,
         situation: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
-        let oneself = Oneself {
-            place_m: state.position_m.xy(),
-            velocity_m_s: state.velocity_m_s.xy(),
-            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
-            separation_m: self.config.separation_m,
-        };
-        let others = self.neighbours.others(now, &oneself);
+        let others = self.neighbours.others(now, &self.oneself(now, state));
         let limits = self.course_limits();
         self.flight.safety.keep_apart(command, situation, &others, &limits)
     }

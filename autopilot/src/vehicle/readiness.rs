@@ -87,6 +87,18 @@ pub enum NotReady {
     Settings(String),
     /// The drone's configuration could not be read back.
     SettingsNotRead,
+    /// Another vehicle in the room has not told where it is, or not for too long.
+    PeerSilent {
+        /// The number of its MAVLink system.
+        system: u8,
+    },
+    /// Another vehicle flies too near to where this one stands.
+    PeerNear {
+        /// The number of its MAVLink system.
+        system: u8,
+        /// How far away it is, across.
+        away_m: f64,
+    },
 }
 
 impl fmt::Display for NotReady {
@@ -136,6 +148,15 @@ impl fmt::Display for NotReady {
                 "the drone's settings could not be read back over its control port: restart the \
                  drone, or set `read_back = false` to fly on its acknowledgements alone",
             ),
+            Self::PeerSilent { system } => {
+                write!(
+                    f,
+                    "vehicle {system} in the same room is not heard: start its pilot, or leave it out"
+                )
+            }
+            Self::PeerNear { system, away_m } => {
+                write!(f, "vehicle {system} flies {away_m:.1} m away: let it fly elsewhere first")
+            }
         }
     }
 }
@@ -152,6 +173,7 @@ impl Vehicle {
             reasons.push(NotReady::NotLanded);
         }
         reasons.extend(self.problems_of_the_settings());
+        reasons.extend(self.problems_of_the_room(now));
         if reasons.is_empty() {
             self.life.enter(Life::Flying(Flying::default()));
         } else {
@@ -176,9 +198,18 @@ impl Vehicle {
                 reasons.extend(self.battery_empty());
                 reasons.extend(self.problems_of_the_sensors(now));
                 reasons.extend(self.problems_of_the_settings());
+                reasons.extend(self.problems_of_the_room(now));
                 reasons
             }
         }
+    }
+
+    fn problems_of_the_room(&self, now: Duration) -> Vec<NotReady> {
+        let silent = self.config.peers.iter().filter(|peer| !self.neighbours.is_heard(**peer, now));
+        let silent = silent.map(|peer| NotReady::PeerSilent { system: *peer });
+        let oneself = self.oneself(now, &self.state(now));
+        let near = self.neighbours.too_near(now, &oneself);
+        silent.chain(near.map(|(system, away_m)| NotReady::PeerNear { system, away_m })).collect()
     }
 
     fn problems_of_the_settings(&self) -> Vec<NotReady> {

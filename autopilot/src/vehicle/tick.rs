@@ -68,7 +68,8 @@ impl Vehicle {
         let situation = self.situation(now, &state, &soon);
         let (command, veto) = self.flight.safety.check(wanted, &situation);
         let (command, apart) = self.kept_apart(now, command, &state, &situation);
-        let veto = apart.or(veto);
+        // One that lands is told of, whatever else is.
+        let veto = [veto, apart].into_iter().flatten().max_by_key(|veto| veto.lands());
         if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
             if veto.lands() {
