@@ -7,11 +7,13 @@ use ardrone_link::WAKE_UP;
 use ardrone_pilot::drive::{Driver, POLL, Surroundings, Take, input};
 use ardrone_pilot::recording::{Header, Recorder};
 use autopilot::Vehicle;
+use autopilot::separation::Neighbour;
 use autopilot::vehicle::{
     Input, NavdataRate, Operator, OperatorOrder, Phase, Place, TagConfig, Transmit, VehicleConfig,
 };
-use kinematics::Sticks;
+use kinematics::{Sticks, world_from_body};
 use mock_drone::{FloorTag, Message, World, WorldConfig};
+use nalgebra::Vector2;
 use system_tests::{SQUARE, plan};
 
 /// A world that works only while nothing is measured.
@@ -78,6 +80,7 @@ fn allocations(
     navdata: NavdataRate,
     orders: &[(Duration, OperatorOrder)],
     tags: Option<&TagConfig>,
+    others: u8,
 ) -> u64 {
     let mut config = VehicleConfig { navdata, ..VehicleConfig::default() };
     config.estimator.tags = tags.copied();
@@ -102,6 +105,11 @@ fn allocations(
                 let handled = driver.handle(order, |at, passed| recorder.pass(at, &passed));
                 assert_eq!(handled, Ok(()));
             }
+            for system in 0..others {
+                let heard = Input::Neighbour(hovering(system, now));
+                let handled = driver.handle(heard, |at, passed| recorder.pass(at, &passed));
+                assert_eq!(handled, Ok(()));
+            }
             driver.step(|at, passed| recorder.pass(at, &passed));
         });
         allocations += if flies { asked.count_total } else { 0 };
@@ -115,6 +123,13 @@ fn allocations(
     allocations
 }
 
+/// Another vehicle, which hovers around the square.
+fn hovering(number: u8, at: Duration) -> Neighbour {
+    let place_m = world_from_body(Vector2::new(0.0, 4.0), 18.0 * f64::from(number));
+    let velocity_m_s = Vector2::zeros();
+    Neighbour { system: 2 + number, at, place_m, velocity_m_s, deviation_m: 0.1, airborne: true }
+}
+
 #[test]
 fn nothing_is_allocated_in_flight() {
     let second = Duration::from_secs(1);
@@ -126,9 +141,10 @@ fn nothing_is_allocated_in_flight() {
         (18 * second, OperatorOrder::Land),
     ];
     for navdata in [NavdataRate::Demo, NavdataRate::Full] {
-        assert_eq!(allocations(navdata, &[], None), 0, "{navdata:?}");
-        assert_eq!(allocations(navdata, &orders, None), 0, "{navdata:?}, by hand");
+        assert_eq!(allocations(navdata, &[], None, 0), 0, "{navdata:?}");
+        assert_eq!(allocations(navdata, &orders, None, 0), 0, "{navdata:?}, by hand");
         let tags = TagConfig::default();
-        assert_eq!(allocations(navdata, &[], Some(&tags)), 0, "{navdata:?}, with tags");
+        assert_eq!(allocations(navdata, &[], Some(&tags), 0), 0, "{navdata:?}, with tags");
+        assert_eq!(allocations(navdata, &orders, None, 19), 0, "{navdata:?}, among others");
     }
 }

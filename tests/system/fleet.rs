@@ -7,24 +7,14 @@ use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
 use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
 use nalgebra::Vector2;
-use system_tests::fleet::{Fleet, FleetFlight, Member, crossing};
+use system_tests::fleet::{Fleet, FleetFlight, Member, NEAREST_M, crossing};
 
-/// No two are ever nearer to each other across, in truth.
-const NEAREST_M: f64 = 0.8;
 const LIMIT: Duration = Duration::from_mins(4);
 /// A separation that separates nobody.
 const OFF_M: f64 = -1e3;
 
 fn flown(fleet: &Fleet) -> FleetFlight {
     fleet.fly(LIMIT).unwrap()
-}
-
-fn nearest_m(flight: &FleetFlight) -> f64 {
-    flight.nearest.map_or(f64::INFINITY, |nearest| nearest.across_m)
-}
-
-fn keeps_apart(flight: &FleetFlight) -> bool {
-    flight.is_down && nearest_m(flight) > NEAREST_M
 }
 
 fn without_separation(mut fleet: Fleet) -> Fleet {
@@ -37,22 +27,22 @@ fn all_that_cross_one_point_arrive() {
     for count in 2..=6 {
         for seed in 0..8 {
             let flight = flown(&crossing(count, 3.0, seed));
-            assert!(keeps_apart(&flight) && flight.is_complete(), "{count} {seed}: {flight:?}");
+            assert!(flight.keeps_apart() && flight.is_complete(), "{count} {seed}: {flight:?}");
             let duration_s = flight.duration().as_secs_f64();
             assert!(duration_s < 45.0, "{count} {seed}: {duration_s}");
         }
     }
     let met = (0..4)
-        .filter(|seed| nearest_m(&flown(&without_separation(crossing(2, 3.0, *seed)))) < NEAREST_M);
+        .filter(|seed| flown(&without_separation(crossing(2, 3.0, *seed))).nearest_m() < NEAREST_M);
     assert_eq!(met.count(), 4, "who is not kept apart meets");
 }
 
 #[test]
 fn random_fleets_keep_apart_and_all_come_down() {
-    let bad = (0..120).filter(|seed| !keeps_apart(&flown(&Fleet::random(*seed))));
+    let bad = (0..120).filter(|seed| !flown(&Fleet::random(*seed)).keeps_apart());
     assert_eq!(bad.collect::<Vec<u64>>(), Vec::<u64>::new());
     let met = (0..20)
-        .filter(|seed| nearest_m(&flown(&without_separation(Fleet::random(*seed)))) < NEAREST_M);
+        .filter(|seed| flown(&without_separation(Fleet::random(*seed))).nearest_m() < NEAREST_M);
     assert!(met.count() > 8, "who is not kept apart meets");
 }
 
@@ -94,9 +84,9 @@ fn sticks_that_are_held_towards_another_vehicle_do_not_reach_it() {
         let sticks = OperatorOrder::Steer(Sticks { roll, ..Sticks::default() });
         let fleet = side_by_side(repeated(&sticks, 10));
         let flight = flown(&fleet);
-        assert!(keeps_apart(&flight), "{roll}: {flight:?}");
+        assert!(flight.keeps_apart(), "{roll}: {flight:?}");
         assert!(vetoed(&flight, 0, Veto::KeepsApart), "{roll}: {flight:?}");
-        assert!(nearest_m(&flown(&without_separation(fleet))) < NEAREST_M, "{roll}");
+        assert!(flown(&without_separation(fleet)).nearest_m() < NEAREST_M, "{roll}");
     }
 }
 
@@ -111,8 +101,8 @@ fn set_points_that_lead_through_another_vehicle_lead_past_it() {
         orders[0].1 = OperatorOrder::Follow(setpoint);
         let fleet = side_by_side(orders);
         let flight = flown(&fleet);
-        assert!(keeps_apart(&flight), "{horizontal:?}: {flight:?}");
-        assert!(nearest_m(&flown(&without_separation(fleet))) < NEAREST_M, "{horizontal:?}");
+        assert!(flight.keeps_apart(), "{horizontal:?}: {flight:?}");
+        assert!(flown(&without_separation(fleet)).nearest_m() < NEAREST_M, "{horizontal:?}");
     }
 }
 
@@ -125,7 +115,7 @@ fn a_silence_lands_those_that_cannot_be_kept_apart() {
         flown(&fleet)
     };
     let flight = silence(12, 8);
-    assert!(keeps_apart(&flight), "{flight:?}");
+    assert!(flight.keeps_apart(), "{flight:?}");
     for member in &flight.members {
         let reason = "another vehicle was too near, or silent".to_owned();
         assert_eq!(member.outcome, Some(Outcome::Failsafe { reason }));
@@ -141,6 +131,21 @@ fn a_vehicle_that_lies_of_its_place_is_not_believed() {
     fleet.air.lie = Some((Duration::from_secs(10), Vector2::new(-6.0, 0.0)));
     let flight = flown(&fleet);
     assert!(flight.is_down && vetoed(&flight, 1, Veto::Crowded), "{flight:?}");
+}
+
+/// Without knowing where the others are nobody takes off.
+#[test]
+fn nobody_takes_off_who_does_not_hear_the_others() {
+    let mut fleet = side_by_side(Vec::new());
+    fleet.air.silent = Some([Duration::ZERO, Duration::from_secs(40)]);
+    let flight = flown(&fleet);
+    for (member, other) in flight.members.iter().zip([2, 1]) {
+        let reason = format!(
+            "vehicle {other} in the same room is not heard: start its pilot, or leave it out"
+        );
+        let refused = Outcome::PreflightRefused { reasons: vec![reason] };
+        assert_eq!(member.outcome, Some(refused));
+    }
 }
 
 /// The second flight starts where the first one has landed, 4 m from the surveyed start, and turned.

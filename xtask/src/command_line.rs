@@ -9,8 +9,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use system_tests::airframes::Airframes;
 
 use crate::{
-    campaign, compare, cross_checks, fly, healthy, mavlink, mutants, rules, sensors, soak, streams,
-    tags, target, verify,
+    campaign, compare, cross_checks, fleets, fly, healthy, mavlink, mutants, rules, sensors, soak,
+    streams, tags, target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -117,6 +117,16 @@ enum Command {
         streams: u64,
         /// The first seed; each further stream takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
+    },
+    /// Fly several vehicles in one room, with lost messages and faults, and report how near they came to each other; fails if
+    /// two came too near, one stayed up, or one that crosses with others did not arrive
+    Fleets {
+        /// How many random fleets, and a fifth as many crossings of each of two to six
+        #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+        fleets: u64,
+        /// The first seed; each further fleet takes the next one
+        #[arg(long, value_name = "SEED", default_value_t = 0)]
         first: u64,
     },
     /// Fly where tags or a GPS know the place too, with a right velocity and a wrong one, and report how often they
@@ -242,6 +252,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Compare { before, after } => compare::run(&before, &after)?,
         Command::Streams { streams, first } => streams::run(streams, first)?,
+        Command::Fleets { fleets, first } => fleets::run(fleets, first)?,
         Command::CrossChecks { flights, first } => cross_checks::run(flights, first)?,
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
         Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,

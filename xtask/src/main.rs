@@ -7,6 +7,7 @@ mod command_line;
 mod compare;
 mod cross_checks;
 mod edit;
+mod fleets;
 mod fly;
 mod healthy;
 mod job;

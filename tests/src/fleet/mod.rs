@@ -21,6 +21,13 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+/// No two in the air may be nearer to each other across, in truth.
+pub const NEAREST_M: f64 = 0.8;
+
+/// A drone that has not been heard for this long flies on as it was ordered last: until it is heard again, and for a while.
+const HEARD: Duration = Duration::from_millis(300);
+const RUNS_AWAY: Duration = Duration::from_secs(8);
+
 /// One vehicle of a fleet.
 #[derive(Debug, Clone)]
 pub struct Member {
@@ -89,8 +96,11 @@ pub struct FleetFlight {
     pub members: Vec<MemberFlight>,
     /// Where they are at the end, in truth.
     pub places_m: Vec<Vector3<f64>>,
-    /// The least distance of two in the air; none if there never were two.
+    /// The least distance of two in the air whose drones are heard; none if there never were two.
     pub nearest: Option<Nearest>,
+    /// Likewise if one of them was not heard by its pilot, or not long ago: it flies on as it was ordered last, and nobody can
+    /// stop it.
+    pub runaway: Option<Nearest>,
     /// Whether all were on the ground at the end.
     pub is_down: bool,
 }
@@ -99,6 +109,16 @@ impl FleetFlight {
     /// Whether all have flown their plans to the end.
     pub fn is_complete(&self) -> bool {
         self.members.iter().all(|member| member.outcome == Some(Outcome::Completed))
+    }
+
+    /// How near two came to each other whose drones were heard.
+    pub fn nearest_m(&self) -> f64 {
+        self.nearest.map_or(f64::INFINITY, |nearest| nearest.across_m)
+    }
+
+    /// Whether no two of them came too near to each other, and all came down.
+    pub fn keeps_apart(&self) -> bool {
+        self.is_down && self.nearest_m() >= NEAREST_M
     }
 
     /// When the last one was down.
@@ -112,6 +132,8 @@ struct Flying {
     start: Start,
     flight: MemberFlight,
     orders: VecDeque<(Duration, OperatorOrder)>,
+    /// When its drone was last not heard for too long.
+    unheard_at: Option<Duration>,
     /// What was told to it, with the time of arrival.
     mail: VecDeque<(Duration, Neighbour)>,
 }
@@ -127,6 +149,11 @@ impl Flying {
     fn is_up(&self) -> bool {
         let Truth { phase, position_m, .. } = self.driver.world().truth();
         !matches!(phase, Phase::Landed) && position_m.z > 0.1
+    }
+
+    /// Whether its pilot hears its drone, and did so for a while.
+    fn is_heard(&self, now: Duration) -> bool {
+        self.unheard_at.is_none_or(|at| now > at + RUNS_AWAY)
     }
 
     /// Whether it flies no more, and nothing is ordered.
@@ -159,6 +186,10 @@ impl Flying {
             }
             _ => {}
         });
+        let now = self.driver.now();
+        if self.driver.vehicle.status(now).navdata_age.is_some_and(|age| age > HEARD) {
+            self.unheard_at = Some(now);
+        }
         self.driver.pass();
         ticked
     }
@@ -190,8 +221,10 @@ impl Fleet {
     ) -> Result<FleetFlight, CannotFly> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.air.seed);
         let mut flying = Vec::new();
-        for (system, member) in (1..).zip(&self.members) {
-            let mut config = VehicleConfig { system, ..member.pilot.clone() };
+        let systems = || (1..).take(self.members.len());
+        for (system, member) in systems().zip(&self.members) {
+            let peers = systems().filter(|peer| *peer != system).collect();
+            let mut config = VehicleConfig { system, peers, ..member.pilot.clone() };
             config.estimator.start = Some(member.start);
             let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
             flying.push(Flying {
@@ -199,10 +232,11 @@ impl Fleet {
                 start: member.start,
                 flight: MemberFlight { outcome: None, ended: limit, events: Vec::new() },
                 orders: member.orders.iter().cloned().collect(),
+                unheard_at: None,
                 mail: VecDeque::new(),
             });
         }
-        let mut nearest: Option<Nearest> = None;
+        let mut nearest = [None; 2];
         let mut now = Duration::ZERO;
         while now < limit && !flying.iter().all(Flying::is_over) {
             let mut told = Vec::new();
@@ -235,23 +269,29 @@ impl Fleet {
         let is_down = !flying.iter().any(Flying::is_up);
         let places_m = flying.iter().map(Flying::place_m).collect();
         let members = flying.into_iter().map(|member| member.flight).collect();
-        Ok(FleetFlight { members, places_m, nearest, is_down })
+        let [nearest, runaway] = nearest;
+        Ok(FleetFlight { members, places_m, nearest, runaway, is_down })
     }
 }
 
+/// The least distances until now: of two that are heard, and of others.
 fn nearer(
-    known: Option<Nearest>,
+    known: [Option<Nearest>; 2],
     at: Duration,
     flying: &[Flying],
     places_m: &[Vector3<f64>],
-) -> Option<Nearest> {
+) -> [Option<Nearest>; 2] {
     let up: Vec<usize> = (0..flying.len()).filter(|number| flying[*number].is_up()).collect();
-    let pairs = up.iter().flat_map(|a| up.iter().map(move |b| [*a, *b])).filter(|[a, b]| a < b);
-    let distances = pairs.map(|[a, b]| {
-        let across: Vector2<f64> = places_m[a].xy() - places_m[b].xy();
-        Nearest { who: [a, b], at, across_m: across.norm() }
-    });
-    known.into_iter().chain(distances).min_by(|a, b| a.across_m.total_cmp(&b.across_m))
+    let pairs = || up.iter().flat_map(|a| up.iter().map(move |b| [*a, *b])).filter(|[a, b]| a < b);
+    [true, false].map(|heard| {
+        let of = pairs().filter(|pair| pair.iter().all(|one| flying[*one].is_heard(at)) == heard);
+        let distances = of.map(|[a, b]| {
+            let across: Vector2<f64> = places_m[a].xy() - places_m[b].xy();
+            Nearest { who: [a, b], at, across_m: across.norm() }
+        });
+        let known = known[usize::from(!heard)].into_iter();
+        known.chain(distances).min_by(|a, b| a.across_m.total_cmp(&b.across_m))
+    })
 }
 
 /// Vehicles on a circle, each of which flies to the opposite place: through one point.
