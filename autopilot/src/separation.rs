@@ -23,7 +23,6 @@ const ACCELERATES_M_S2: f64 = 3.0;
 const FASTEST_M_S: f64 = 3.0;
 /// Who has not been heard for this long is no longer taken to go on as it did.
 const GOES_ON: Duration = Duration::from_millis(300);
-
 /// A vehicle that has not been heard for this long is silent: nobody takes off where it is.
 const SILENT: Duration = Duration::from_secs(2);
 /// A place moves by this, and this many standard deviations, without a motion: a tag corrects it.
@@ -212,7 +211,7 @@ fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
 }
 
 /// Where to fly to on the way to a target: there, or past who is in the way, on the right of it. As everybody keeps to the
-/// right, two that meet do not block each other.
+/// right, two that meet do not block each other where there is room on the right.
 pub(crate) fn way_past(
     from_m: Vector2<f64>,
     target_m: Vector2<f64>,
