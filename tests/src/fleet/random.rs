@@ -17,7 +17,7 @@ const STARTS_M: f64 = 4.5;
 const TARGETS_M: f64 = 4.0;
 /// Two do not start nearer to each other.
 const APART_M: f64 = 2.2;
-/// The weakest airframe resists this share of what it can resist.
+/// All have wind from one side, each at most this share of what its own airframe resists.
 const MOST_WIND: f64 = 0.3;
 
 impl Fleet {
