@@ -15,7 +15,7 @@ const RADIUS_M: [f64; 2] = [0.5, 200.0];
 /// Where the drone may fly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
-pub(super) struct Fence {
+pub(crate) struct Fence {
     pub(super) floor_m: f64,
     pub(super) ceiling_m: f64,
     border: Border,

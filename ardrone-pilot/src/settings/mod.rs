@@ -5,6 +5,7 @@
 
 mod editor;
 mod fence;
+mod room;
 mod section;
 mod sections;
 mod tags;
@@ -14,7 +15,9 @@ use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use serde::{Deserialize, Serialize};
 
 pub use self::editor::{Described, with_changes};
-use self::fence::Fence;
+pub(crate) use self::fence::Fence;
+use self::room::Room;
+pub(crate) use self::room::SurveyedStart;
 use self::section::{Declared, Section};
 use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Station, Vehicle, Video};
 pub use self::tags::GivenTag;
@@ -26,6 +29,7 @@ use self::tags::Tags;
 pub struct Settings {
     vehicle: Vehicle,
     fence: Fence,
+    room: Room,
     drone: Drone,
     video: Video,
     station: Station,
@@ -68,9 +72,10 @@ const HEADER: &str = "\
 ";
 
 /// The sections.
-const DECLARED: [Declared; 10] = [
+const DECLARED: [Declared; 11] = [
     Vehicle::DECLARED,
     Fence::DECLARED,
+    Room::DECLARED,
     Drone::DECLARED,
     Video::DECLARED,
     Station::DECLARED,
@@ -151,10 +156,11 @@ impl Settings {
     }
 
     /// All sections but the tags, whose number varies.
-    fn sections(&self) -> [&dyn Section<VehicleConfig>; 9] {
+    fn sections(&self) -> [&dyn Section<VehicleConfig>; 10] {
         let Self {
             vehicle,
             fence,
+            room,
             drone,
             video,
             station,
@@ -164,7 +170,7 @@ impl Settings {
             tags: _,
             controller,
         } = self;
-        [vehicle, fence, drone, video, station, delays, airframe, estimator, controller]
+        [vehicle, fence, room, drone, video, station, delays, airframe, estimator, controller]
     }
 
     /// The vehicle's configuration.
@@ -226,10 +232,13 @@ mod tests {
                 let other = match value {
                     toml::Value::Float(number) => (number * 1.05).into(),
                     // A bit rate that is not asked for.
+                    toml::Value::Integer(0) if name == "ultrasound" => 7.into(),
                     toml::Value::Integer(0) => 500.into(),
                     toml::Value::Integer(1) => 2.into(),
                     toml::Value::Integer(number) => (number - 1).into(),
                     toml::Value::Boolean(on) => (!on).into(),
+                    toml::Value::Array(_) if name == "start" => vec![1.0, 2.0, 3.0].into(),
+                    toml::Value::Array(_) if name == "peers" => vec![7].into(),
                     toml::Value::Array(_) => vec![0.9, 0.8].into(),
                     _ => toml::Value::from("full"),
                 };
@@ -241,7 +250,7 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 44);
+        assert_eq!(tried, 48);
     }
 
     #[test]

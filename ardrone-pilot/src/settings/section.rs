@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-use autopilot::vehicle::NavdataRate;
+use autopilot::vehicle::{NavdataRate, Ultrasound};
 use diagnostic::{Figures, beyond};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -234,6 +234,44 @@ impl Setting<NavdataRate> for Navdata {
             Self::Demo => NavdataRate::Demo,
             Self::Full => NavdataRate::Full,
         }
+    }
+}
+
+/// The ultrasound's frequency, by the drone's number for it; zero for none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "u8", into = "u8")]
+pub(crate) struct UltrasoundFrequency(Option<Ultrasound>);
+
+impl TryFrom<u8> for UltrasoundFrequency {
+    type Error = String;
+
+    fn try_from(number: u8) -> Result<Self, String> {
+        match number {
+            0 => Ok(Self(None)),
+            7 => Ok(Self(Some(Ultrasound::Slow))),
+            8 => Ok(Self(Some(Ultrasound::Fast))),
+            _ => Err(format!("{number} is no frequency of the ultrasound: it has 7 and 8")),
+        }
+    }
+}
+
+impl From<UltrasoundFrequency> for u8 {
+    fn from(frequency: UltrasoundFrequency) -> Self {
+        match frequency.0 {
+            None => 0,
+            Some(Ultrasound::Slow) => 7,
+            Some(Ultrasound::Fast) => 8,
+        }
+    }
+}
+
+impl Setting<Option<Ultrasound>> for UltrasoundFrequency {
+    fn of(value: &Option<Ultrasound>) -> Self {
+        Self(*value)
+    }
+
+    fn value(&self) -> Option<Ultrasound> {
+        self.0
     }
 }
 

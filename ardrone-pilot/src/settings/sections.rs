@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use autopilot::vehicle::{VehicleConfig, VehicleName};
 use serde::{Deserialize, Serialize};
 
-use super::section::{BitRate, Degrees, Milliseconds, Navdata, Pair, section};
+use super::section::{BitRate, Degrees, Milliseconds, Navdata, Pair, UltrasoundFrequency, section};
 
 /// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
@@ -32,6 +32,9 @@ section! {
         read_back: bool = [read_back],
         /// Whether the position by a flight recorder is asked for. It is shown and recorded; nothing is flown by it.
         gps: bool = [gps],
+        /// Frequency of the ultrasound: 7 (22.22 Hz) or 8 (25 Hz); 0 leaves it as it is, which is 8 after a start. Drones within 3 m of
+        /// each other need different ones.
+        ultrasound: UltrasoundFrequency = [ultrasound],
     }
 }
 

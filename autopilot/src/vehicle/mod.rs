@@ -90,6 +90,15 @@ pub enum NavdataRate {
     Full,
 }
 
+/// How often the ultrasound measures. Two drones near each other hear each other's echoes unless theirs differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ultrasound {
+    /// 22.22 Hz.
+    Slow,
+    /// 25 Hz, as after a start.
+    Fast,
+}
+
 /// Configuration of a [`Vehicle`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct VehicleConfig {
@@ -111,6 +120,8 @@ pub struct VehicleConfig {
     pub gps: bool,
     /// Bit rate of the video that is asked for, in kbit/s; otherwise the drone keeps its own.
     pub video_kbit_s: Option<u32>,
+    /// Frequency of the ultrasound that is asked for; otherwise the drone keeps its own.
+    pub ultrasound: Option<Ultrasound>,
     /// What a silent ground station means.
     pub station: StationPatience,
     /// Delays and airframe parameters assumed by the estimator.
@@ -146,6 +157,7 @@ impl Default for VehicleConfig {
             navdata: NavdataRate::default(),
             gps: false,
             video_kbit_s: None,
+            ultrasound: None,
             station: StationPatience::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),
@@ -477,6 +489,9 @@ fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
     if let Some(kbit_s) = config.video_kbit_s {
         settings.push(Setting::VideoBitRateControl(BitRateControl::Manual));
         settings.push(Setting::VideoBitRateKbitS(kbit_s));
+    }
+    if let Some(ultrasound) = config.ultrasound {
+        settings.push(Setting::SlowUltrasound(ultrasound == Ultrasound::Slow));
     }
     settings.iter().map(Setting::config).collect()
 }
