@@ -48,7 +48,7 @@ pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, Pla
 
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
     let mut places =
-        vec![Place { pose: Pose::default(), arrival_s: 0.0, departure_s: 0.0, target: None }];
+        vec![Place { pose: limits.start.unwrap_or_default(), arrival_s: 0.0, departure_s: 0.0, target: None }];
     let mut now_s = 0.0;
     for (step, expected) in plan.expectations(limits).into_iter().enumerate() {
         let time_s = expected.time.as_secs_f64();
@@ -102,7 +102,8 @@ fn from_above(
     chart.draw_series(fence.map(|part| PathElement::new(part, FENCE.stroke_width(2))))?;
     let way = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
     chart.draw_series(LineSeries::new(way, WAY.stroke_width(2)))?;
-    chart.draw_series([TriangleMarker::new((0.0, 0.0), 9, GROUND.filled())])?;
+    let start = limits.start.unwrap_or_default();
+    chart.draw_series([TriangleMarker::new((start.x_m, start.y_m), 9, GROUND.filled())])?;
     let tags = tags.iter().map(|tag| (tag.place_m.x, tag.place_m.y)).filter(|tag| inside(*tag));
     chart.draw_series(tags.flat_map(|tag| {
         [Circle::new(tag, 8, TAG.stroke_width(2)), Circle::new(tag, 3, TAG.filled())]

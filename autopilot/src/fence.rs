@@ -43,10 +43,13 @@ pub struct FlightLimits {
     pub floor_m: f64,
     /// Highest target height above the floor, in metres.
     pub ceiling_m: f64,
-    /// Horizontally, around the start.
+    /// Horizontally, around the origin of the world, which is the start unless that is surveyed.
     pub border: Border,
     /// Origin of the plan's heights.
     pub z_origin: ZOrigin,
+    /// Where the drone stands at its first start, on the floor, if that is surveyed: plans are then of places in the world.
+    /// Otherwise the world begins there.
+    pub start: Option<Pose>,
 }
 
 impl Default for FlightLimits {
@@ -67,7 +70,7 @@ impl FlightLimits {
     /// A fence with this border, from a lowest to a highest height above the floor in metres. Heights of plans count from
     /// the hover.
     pub const fn new(border: Border, floor_m: f64, ceiling_m: f64) -> Self {
-        Self { floor_m, ceiling_m, border, z_origin: ZOrigin::Hover }
+        Self { floor_m, ceiling_m, border, z_origin: ZOrigin::Hover, start: None }
     }
 
     /// No limits at all.

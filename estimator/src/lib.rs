@@ -150,6 +150,18 @@ pub struct Start {
     pub deviation_m: f64,
 }
 
+impl Start {
+    /// A place right and forward of a drone that stands there, in the world.
+    pub fn in_world(&self, place_m: Vector2<f64>) -> Vector2<f64> {
+        self.place_m + world_from_body(place_m, self.heading_deg)
+    }
+
+    /// A place in the world, right and forward of a drone that stands there.
+    pub fn seen_from_here(&self, place_m: Vector2<f64>) -> Vector2<f64> {
+        world_from_body(place_m - self.place_m, -self.heading_deg)
+    }
+}
+
 impl Default for EstimatorConfig {
     fn default() -> Self {
         Self {

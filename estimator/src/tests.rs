@@ -122,7 +122,7 @@ fn a_flight_begins_where_and_as_the_drone_stands_at_the_start() {
         for at in [sample.arrival, sample.arrival + Duration::from_millis(200)] {
             let (origin, there) = (origin.predicted(at), there.predicted(at));
             let turned = |vector| world_from_body(vector, start.heading_deg);
-            let expected_m = turned(origin.position_m.xy()) + start.place_m;
+            let expected_m = start.in_world(origin.position_m.xy());
             assert!((there.position_m.xy() - expected_m).norm() < 1e-6, "{there:?}");
             let expected_m_s = turned(origin.velocity_m_s.xy());
             assert!((there.velocity_m_s.xy() - expected_m_s).norm() < 1e-6, "{there:?}");

@@ -108,7 +108,7 @@ impl From<SurveyedStart> for Vec<f64> {
 
 impl Section<VehicleConfig> for Room {
     fn apply(&self, config: &mut VehicleConfig) {
-        config.estimator.start = self.start.0;
+        config.starts_at(self.start.0);
         config.separation_m = self.separation_m;
         config.peers.clone_from(&self.peers);
     }

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits};
 
-/// Executes a plan with an ideal drone, which hovers at the expected height above its take-off place, reaches
+/// Executes a plan with an ideal drone, which hovers at the expected height above its start, reaches
 /// each target exactly, and lands where it is.
 #[derive(Debug, Clone)]
 pub(crate) struct DryRun {
@@ -20,7 +20,7 @@ pub(crate) struct DryRun {
 impl DryRun {
     pub(crate) fn new(limits: &FlightLimits) -> Self {
         let interpreter = Interpreter::new(limits);
-        Self { interpreter, place: Pose::default(), airborne: false, tags_m: Vec::new() }
+        Self { interpreter, place: limits.start.unwrap_or_default(), airborne: false, tags_m: Vec::new() }
     }
 
     /// A run that continues from `place`.
@@ -118,6 +118,24 @@ mod tests {
         let landed = places("takeoff\ngoto 0 2 1 0\nland\nautoInit\nmoveBy 0 0 0.5 0\nland\n");
         let expected = [(0.0, 0.85), (2.0, 1.85), (2.0, 0.0), (2.0, 0.85), (2.0, 1.35), (2.0, 0.0)];
         assert_eq!(landed, expected);
+    }
+
+    /// Targets are places of the room; what is relative is relative to where the drone is.
+    #[test]
+    fn a_surveyed_start_moves_the_drone_but_not_the_targets() {
+        let start = Pose { x_m: 3.0, y_m: -1.0, z_m: 0.0, yaw_deg: 90.0 };
+        let limits = FlightLimits { start: Some(start), ..FlightLimits::default() };
+        let plan = "takeoff\nmoveBy 1 0 0 0\ngoto 0 1 0 0\nsetReference $START$\ngoto 0 0 1 0\nland\n";
+        let plan = Plan::parse("plan", plan).unwrap();
+        let mut run = DryRun::new(&limits);
+        let places = plan.steps().iter().filter_map(|step| {
+            run.step(step.command)?;
+            let Pose { x_m, y_m, yaw_deg, .. } = run.place();
+            Some([x_m, y_m, yaw_deg])
+        });
+        let here = [3.0, -1.0, 90.0];
+        let expected = [here, [4.0, -1.0, 90.0], [0.0, 1.0, 0.0], here, here];
+        assert_eq!(places.collect::<Vec<_>>(), expected);
     }
 
     #[test]

@@ -104,8 +104,10 @@ impl Interpreter {
             }
             Command::SetReference(to) => self.reference = Reference::FromOrigin(to),
             Command::SetReferenceHere => self.reference = Reference::Fixed(*pose),
-            // The estimator's frame begins where the drone stood at the start of the flight.
-            Command::SetReferenceStart => self.reference = Reference::Fixed(Pose::default()),
+            // The estimator's frame begins there unless the start is surveyed.
+            Command::SetReferenceStart => {
+                self.reference = Reference::Fixed(self.limits.start.unwrap_or_default());
+            }
             Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
             Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
             Command::SetStayTime { time_s } => self.settings.stay_time_ms = milliseconds(time_s),
@@ -120,9 +122,11 @@ impl Interpreter {
         Self { origin: self.origin, target: self.target, ..Self::new(&self.limits) }
     }
 
-    /// A take-off has ended at `pose`, which is held. The first one sets the origin.
+    /// A take-off has ended at `pose`, which is held. The first one sets the origin: there, or that of the world if the start
+    /// is surveyed.
     pub(crate) fn take_off_ended(&mut self, pose: &Pose) {
-        let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..*pose };
+        let here = if self.limits.start.is_some() { Pose::default() } else { *pose };
+        let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..here };
         self.origin.get_or_insert(origin);
         self.target = *pose;
     }

@@ -145,6 +145,18 @@ impl Default for StationPatience {
     }
 }
 
+impl VehicleConfig {
+    /// The drone stands there at its first start, in a world that it shares with others: of its places are its targets, the
+    /// fence and the tags.
+    pub fn starts_at(&mut self, start: Option<Start>) {
+        self.estimator.start = start;
+        self.limits.start = start.map(|Start { place_m, heading_deg, .. }| {
+            let [x_m, y_m] = place_m.into();
+            Pose { x_m, y_m, z_m: 0.0, yaw_deg: heading_deg }
+        });
+    }
+}
+
 impl Default for VehicleConfig {
     fn default() -> Self {
         Self {

@@ -127,12 +127,12 @@ impl Vehicle {
         config
     }
 
-    /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but above the origin of the world if
-    /// tags or a surveyed start give one.
-    pub(super) fn plan_origin(&self, pose: Pose) -> Pose {
+    /// Where a take-off that has ended at `pose` is taken to have led: there, but above the origin of the world if tags give
+    /// one and the drone started there.
+    pub(super) fn hover_place(&self, pose: Pose) -> Pose {
         let EstimatorConfig { tags, start, .. } = &self.config.estimator;
-        let is_given = tags.is_some() || start.is_some();
-        if is_given { Pose { z_m: pose.z_m, ..Pose::default() } } else { pose }
+        let is_above_origin = tags.is_some() && start.is_none();
+        if is_above_origin { Pose { z_m: pose.z_m, ..Pose::default() } } else { pose }
     }
 
     /// The target, turned a little to and fro while that teaches how to read the tag below.
@@ -175,16 +175,18 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_begins_above_the_origin_that_is_given_or_where_the_drone_took_off() {
+    fn a_take_off_leads_above_the_origin_that_tags_give_or_to_where_the_drone_is() {
         let there = Pose { x_m: 1.0, y_m: 2.0, z_m: 0.8, yaw_deg: 30.0 };
         let origin = |tags, start| {
             let mut config = VehicleConfig::default();
-            (config.estimator.tags, config.estimator.start) = (tags, start);
-            Vehicle::new(&config).unwrap().plan_origin(there)
+            config.estimator.tags = tags;
+            config.starts_at(start);
+            Vehicle::new(&config).unwrap().hover_place(there)
         };
         assert_eq!(origin(None, None), there);
         let above = Pose { z_m: 0.8, ..Pose::default() };
         assert_eq!(origin(Some(super::super::TagConfig::default()), None), above);
-        assert_eq!(origin(None, Some(estimator::Start::default())), above);
+        let tags = Some(super::super::TagConfig::default());
+        assert_eq!(origin(tags, Some(estimator::Start::default())), there, "the mission knows it");
     }
 }

@@ -333,7 +333,7 @@ impl Vehicle {
         self.flight.report_mut().steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
-                self.mission.take_off_ended(&self.plan_origin(pose));
+                self.mission.take_off_ended(&self.hover_place(pose));
                 self.flight.report_mut().took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {

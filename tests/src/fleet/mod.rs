@@ -225,7 +225,7 @@ impl Fleet {
         for (system, member) in systems().zip(&self.members) {
             let peers = systems().filter(|peer| *peer != system).collect();
             let mut config = VehicleConfig { system, peers, ..member.pilot.clone() };
-            config.estimator.start = Some(member.start);
+            config.starts_at(Some(member.start));
             let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
             flying.push(Flying {
                 driver: Driver::new(vehicle, &member.world),
