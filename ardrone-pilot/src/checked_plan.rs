@@ -41,15 +41,10 @@ impl CheckedPlan {
 
     /// Flies the plan on a simulated drone, and warns at the step behind which it is not flown as planned: what adds up over a
     /// flight is seen by no look at a step.
-    pub(crate) fn simulate(
-        &mut self,
-        text: &str,
-        config: &VehicleConfig,
-        surveyed: Option<&[SurveyedTag]>,
-    ) {
+    pub(crate) fn simulate(&mut self, text: &str, config: &VehicleConfig) {
         let Some(plan) = self.plan.clone() else { return };
         let steps = plan.steps().to_vec();
-        let world = simulation::world(surveyed, Some(&plan));
+        let world = simulation::world(config, Some(&plan));
         let (step, message) = match simulation::fly(plan, config, &world) {
             Ok(SimulatedFlight { outcome: Some(outcome), .. }) if outcome.exit_status() == 0 => {
                 return;
@@ -148,7 +143,7 @@ mod tests {
     fn checked(text: &str) -> CheckedPlan {
         let config = VehicleConfig::default();
         let mut checked = CheckedPlan::new(text, &config.limits, None);
-        checked.simulate(text, &config, None);
+        checked.simulate(text, &config);
         checked
     }
 

@@ -20,6 +20,8 @@ mod checked_plan;
 pub mod cli;
 mod drawing;
 pub mod drive;
+pub mod fleet;
+mod fleet_drawing;
 pub mod flight;
 mod flights;
 mod flown_path;

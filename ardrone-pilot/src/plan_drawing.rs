@@ -12,14 +12,14 @@ const SIZE: (u32, u32) = (960, 500);
 /// Pieces of the fence are no longer, in metres.
 const PIECE_M: f64 = 0.2;
 const WAY: RGBColor = RGBColor(25, 95, 170);
-const FENCE: RGBColor = RGBColor(190, 60, 40);
+pub(crate) const FENCE: RGBColor = RGBColor(190, 60, 40);
 const TAG: RGBColor = RGBColor(20, 20, 20);
 const GROUND: RGBColor = RGBColor(110, 110, 110);
 
 /// Why a plan could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw the plan: {0}")]
-pub struct PlanDrawingError(String);
+pub struct PlanDrawingError(pub(crate) String);
 
 /// A place on the way, with its expected times.
 #[derive(Debug, Clone, Copy)]
@@ -132,7 +132,7 @@ fn from_above(
 }
 
 /// A side of the fence in short pieces, of which those in view are drawn.
-fn pieces([from, to]: [[f64; 2]; 2]) -> impl Iterator<Item = [(f64, f64); 2]> {
+pub(crate) fn pieces([from, to]: [[f64; 2]; 2]) -> impl Iterator<Item = [(f64, f64); 2]> {
     let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
     let count = (length_m / PIECE_M).ceil().clamp(1.0, 10_000.0);
     let at = move |share: f64| {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    CannotFly, Decision, FlightEvent, Phase, SurveyedTag, Telemetry, Vehicle, VehicleConfig,
+    CannotFly, Decision, FlightEvent, Phase, TagConfig, Telemetry, Vehicle, VehicleConfig,
 };
 use kinematics::Pose;
 use mock_drone::{FloorTag, WorldConfig};
@@ -37,12 +37,15 @@ pub struct SimulatedFlight {
 
 /// A world with the tags of the settings and of a plan, or with one below the start if there are none; without any
 /// if tags are not in use.
-pub fn world(surveyed: Option<&[SurveyedTag]>, plan: Option<&Plan>) -> WorldConfig {
+pub fn world(config: &VehicleConfig, plan: Option<&Plan>) -> WorldConfig {
     let mut world = WorldConfig::default();
-    let Some(surveyed) = surveyed else { return world };
-    for tag in surveyed.iter().chain(plan.iter().flat_map(|plan| plan.tags())) {
-        let heading_deg = tag.heading_deg.unwrap_or(0.0);
-        world.tags.push(FloorTag::new(tag.place_m.x, tag.place_m.y, heading_deg));
+    let Some(TagConfig { surveyed, .. }) = &config.estimator.tags else { return world };
+    // The simulated drone's world begins where it stands.
+    let start = config.estimator.start.unwrap_or_default();
+    for tag in surveyed.iter().flatten().chain(plan.iter().flat_map(|plan| plan.tags())) {
+        let heading_deg = tag.heading_deg.unwrap_or(0.0) - start.heading_deg;
+        let [x_m, y_m] = start.seen_from_here(tag.place_m).into();
+        world.tags.push(FloorTag::new(x_m, y_m, heading_deg));
     }
     if world.tags.is_empty() {
         world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
@@ -50,7 +53,7 @@ pub fn world(surveyed: Option<&[SurveyedTag]>, plan: Option<&Plan>) -> WorldConf
     world
 }
 
-/// Flies a plan; a few thousand times faster than real time.
+/// Flies a plan as if there were no other vehicles; a few thousand times faster than real time.
 ///
 /// # Errors
 /// [`CannotFly`] if the plan or the limits are refused.
@@ -59,7 +62,10 @@ pub fn fly(
     config: &VehicleConfig,
     world: &WorldConfig,
 ) -> Result<SimulatedFlight, CannotFly> {
-    let mut driver = Driver::new(Vehicle::flying(plan, config)?, world);
+    // Nobody else is there.
+    let config = VehicleConfig { peers: Vec::new(), ..config.clone() };
+    let mut driver = Driver::new(Vehicle::flying(plan, &config)?, world);
+    let start = config.estimator.start.unwrap_or_default();
     let charged = driver.world().truth().battery_percent;
     let (mut outcome, mut warnings, mut track) = (None, Vec::new(), Vec::new());
     let mut begun = None;
@@ -79,8 +85,9 @@ pub fn fly(
             lifted.get_or_insert(now);
             landed = now;
             if since >= TRACK * u32::try_from(track.len()).unwrap_or(u32::MAX) {
-                let [x_m, y_m, z_m] = truth.position_m.into();
-                track.push((since, Pose { x_m, y_m, z_m, yaw_deg: truth.yaw_deg }));
+                let [x_m, y_m] = start.in_world(truth.position_m.xy()).into();
+                let yaw_deg = truth.yaw_deg + start.heading_deg;
+                track.push((since, Pose { x_m, y_m, z_m: truth.position_m.z, yaw_deg }));
             }
         }
         driver.pass();

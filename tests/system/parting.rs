@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use ardrone_pilot::flight::Flight;
+use ardrone_pilot::flight::{Beside, Flight};
 use autopilot::VehicleConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::{DroneConfig, WorldConfig};
@@ -241,7 +241,7 @@ fn a_log_that_may_not_grow_ends_the_log_and_not_the_flight() {
 fn a_flight_that_is_dropped_lands() {
     let relay = Relay::start(&WorldConfig::default());
     let (runtime, config) = (crate::udp::runtime(), VehicleConfig::default());
-    let flight = Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), None).unwrap();
+    let flight = Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), Beside::default()).unwrap();
     flying(&relay);
     drop(flight);
     assert_eq!(relay.truth().phase, Phase::Landed);

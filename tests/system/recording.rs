@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::time::Duration;
 
-use ardrone_pilot::flight::Flight;
+use ardrone_pilot::flight::{Beside, Flight};
 use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter, Recorder};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
@@ -114,7 +114,7 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
     let config = VehicleConfig::default();
     let runtime = crate::udp::runtime();
     let flight =
-        Flight::start(&runtime, Some(plan(PLAN)), &config, &address, Some(recorder)).unwrap();
+        Flight::start(&runtime, Some(plan(PLAN)), &config, &address, Beside { recorder: Some(recorder), seat: None }).unwrap();
     assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);
     recording.finish().unwrap();
     let flown = std::fs::read(path).unwrap();

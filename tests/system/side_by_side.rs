@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use ardrone_pilot::drive::{Driver, Passed, Simulated};
-use ardrone_pilot::flight::{Content, Flight};
+use ardrone_pilot::flight::{Beside, Content, Flight};
 use ardrone_pilot::recording::{Header, Log, Recorder, file_name};
 use ardrone_pilot::settings::Settings;
 use autopilot::outcome::Outcome;
@@ -91,7 +91,7 @@ fn over_udp_two_fly_at_once_into_one_folder() {
         };
         let (recorder, recording) = Recorder::start(&path, &header).unwrap();
         let flown = Some(plan(text));
-        let flight = Flight::start(&runtime, flown, &config, &address, Some(recorder)).unwrap();
+        let flight = Flight::start(&runtime, flown, &config, &address, Beside { recorder: Some(recorder), seat: None }).unwrap();
         (config.name, flight, recording, mock)
     });
     // Each has its own targets, its drone is where it thinks, and each message says whose it is.
@@ -132,7 +132,7 @@ fn two_fly_until_a_signal() {
         let mock = MockDrone::start(&world(1), Ports::LOOPBACK).unwrap();
         let flown = Some(plan("takeoff\nsetStayTime 60\ngoto 0 0 0 0\nland\n"));
         let address = crate::udp::address(&mock);
-        (Flight::start(&runtime, flown, &named(name), &address, None).unwrap(), mock)
+        (Flight::start(&runtime, flown, &named(name), &address, Beside::default()).unwrap(), mock)
     });
     while flights.iter().any(|(_, mock)| mock.truth().phase != Phase::Flying) {
         std::thread::sleep(Duration::from_millis(20));

@@ -30,7 +30,7 @@ impl Planning {
     /// The plan flown on a simulated drone; null if it cannot be flown.
     pub(super) fn simulate(&self, text: &str) -> Value {
         let Some(plan) = self.checked(text).plan else { return Value::Null };
-        let world = simulation::world(self.surveyed.as_deref(), Some(&plan));
+        let world = simulation::world(&self.config, Some(&plan));
         match simulation::fly(plan, &self.config, &world) {
             Ok(flight) => simulated(&flight),
             Err(refused) => json!({ "outcome": refused.to_string(), "completed": false }),

@@ -65,8 +65,10 @@ pub(super) struct Arguments {
 /// Subcommands other than flying.
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
+    /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise; or a fleet (.toml)
     Check(CheckPlan),
+    /// Fly several drones in one room, each along its plan: they keep apart
+    Fleet(Box<FlyFleet>),
     /// Make a page about a recorded flight: plots, and why the agent did what it did
     Report {
         /// A flight log
@@ -110,7 +112,7 @@ pub(super) enum Command {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(super) struct CheckPlan {
-    /// The flight plan
+    /// The flight plan, or a fleet: a file .toml
     #[arg(value_name = "PLAN")]
     pub(super) plan: PathBuf,
     /// Settings other than the defaults, for the fence
@@ -129,6 +131,38 @@ pub(super) struct CheckPlan {
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Arguments of the flight of a fleet.
+#[derive(Debug, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
+pub(super) struct FlyFleet {
+    /// The vehicles: name, start and plan of each
+    #[arg(value_name = "FLEET.toml")]
+    pub(super) fleet: PathBuf,
+    /// Fly simulated drones, started on free loopback ports
+    #[arg(long)]
+    pub(super) mock: bool,
+    /// Where z = 0 of the plans is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    z_origin: ZOrigin,
+    /// Record the flights to this folder, each in a file with the vehicle's name [default: flights/DATE-FLEET]
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) log: Option<PathBuf>,
+    /// Do not record the flights
+    #[arg(long, conflicts_with = "log")]
+    pub(super) no_log: bool,
+    #[command(flatten)]
+    pub(super) mavlink: MavlinkArguments,
+    /// Print how regular the ticks were and what they cost
+    #[arg(long)]
+    pub(super) timing: bool,
+    /// Plain lines, without terminal control sequences
+    #[arg(long)]
+    pub(super) plain: bool,
+    /// Print one JSON object per line: status, events, targets reached, and the end, each with its vehicle
     #[arg(long)]
     pub(super) json: bool,
 }
@@ -237,6 +271,12 @@ fn advised(mut error: clap::Error) -> clap::Error {
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![how.into()]));
     }
     error
+}
+
+impl FlyFleet {
+    pub(super) fn z_origin(&self) -> plan::ZOrigin {
+        self.z_origin.into()
+    }
 }
 
 impl Fly {

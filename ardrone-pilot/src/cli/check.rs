@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let source = Source { name: &name, text: &text };
     let surveyed = settings.surveyed_tags();
     let mut checked = CheckedPlan::new(&text, &limits, surveyed.as_deref());
-    checked.simulate(&text, &config, surveyed.as_deref());
+    checked.simulate(&text, &config);
     let printed = if arguments.json {
         json::text_in_lines(&checked.json(&name, &text)) + "\n"
     } else {

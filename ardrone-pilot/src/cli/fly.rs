@@ -6,13 +6,14 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
-use autopilot::vehicle::{SurveyedTag, Telemetry, VehicleConfig, VehicleName};
+use autopilot::vehicle::{Start, SurveyedTag, Telemetry, VehicleConfig, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
 use time::UtcDateTime;
 
 use super::arguments::Fly;
+use super::crew::Crew;
 use super::keys::{self, Keys};
 use super::mavlink::Wanted;
 use super::program::{self, AtEnd, Lines};
@@ -22,7 +23,7 @@ use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, read, read_settings, terminal};
 use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile};
-use crate::flight::{Content, Controls, Flight, Message};
+use crate::flight::{Beside, Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
 use crate::recording::{self, Header, Recorder, Recording};
@@ -33,11 +34,11 @@ use crate::timing::TimingReport;
 use crate::video::Video;
 
 /// Folder of the recordings unless another one is given.
-const FLIGHTS: &str = "flights";
+pub(super) const FLIGHTS: &str = "flights";
 /// The settings that the page writes where none were given.
 const SETTINGS: &str = "pilot.toml";
 /// Messages that may wait to be printed.
-const UNSHOWN: usize = 256;
+pub(super) const UNSHOWN: usize = 256;
 
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
@@ -52,17 +53,17 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let plan = plan.map(|path| read_plan(path, surveyed.as_deref(), &config.limits)).transpose()?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
-    let mut progress = Progress::new(prompt.clone(), plain);
+    let mut progress = Progress::new(prompt.clone(), plain, [config.name]);
     for note in notes(plan.as_ref(), surveyed.as_deref(), &config.limits) {
         progress.print_line(&format!("note: {note}"));
     }
     let mock = if arguments.mock {
         let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
-        Some(MockDrone::start(&simulation::world(surveyed.as_deref(), plan.as_ref()), ports)?)
+        Some(MockDrone::start(&simulation::world(&config, plan.as_ref()), ports)?)
     } else {
         None
     };
-    let drone = drone_address(arguments, mock.as_ref());
+    let drone = mock.as_ref().map_or_else(|| drone_address(arguments), mock_address);
     progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
     let listener = arguments.ui.map(Listener::bind).transpose()?;
     let mavlink = mavlink.map(Station::bind).transpose()?;
@@ -81,7 +82,8 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let video = watch_video(&runtime, arguments, mock.as_ref(), recording.as_ref());
-    let flight = Flight::start(&runtime, plan.clone(), &config, &drone, recorder)?;
+    let beside = Beside { recorder, seat: None };
+    let flight = Flight::start(&runtime, plan.clone(), &config, &drone, beside)?;
     let controls = flight.controls();
     let page = page_config(arguments, &settings, config.clone(), recording.as_ref());
     let open = |listener: Listener| {
@@ -93,14 +95,16 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let screen = || Screen::start(&config.limits, warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
-    let keys = Keys::start(controls.clone(), &config.limits, prompt);
+    let crew = Crew::new(vec![controls.clone()]);
+    let keys = Keys::start(crew.clone(), &config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
-    } else if let Err(error) = read_orders(arguments, &config.limits, controls.clone()) {
+    } else if let Err(error) = read_orders(arguments, &config.limits, crew) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
     let (steps, truths) = (Vec::new(), Vec::new());
-    let mut outputs = Outputs { arguments, steps, mock, browser, recording, truths };
+    let start = config.estimator.start.unwrap_or_default();
+    let mut outputs = Outputs { arguments, steps, mock, start, browser, recording, truths };
     let unshown = pass_on(&flight, mavlink.as_ref(), |message| outputs.send(&message, &mut watch));
     drop((keys, mavlink));
     watch.end();
@@ -171,7 +175,7 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
 }
 
 /// Reads orders from standard input if no keys are read from it.
-fn read_orders(arguments: &Fly, limits: &FlightLimits, controls: Controls) -> std::io::Result<()> {
+fn read_orders(arguments: &Fly, limits: &FlightLimits, crew: Crew) -> std::io::Result<()> {
     let lines = match (arguments.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,
@@ -181,22 +185,22 @@ fn read_orders(arguments: &Fly, limits: &FlightLimits, controls: Controls) -> st
     let elsewhere =
         arguments.plan.is_some() || arguments.ui.is_some() || arguments.mavlink.is_given();
     let at_end = if elsewhere { AtEnd::GoOn } else { AtEnd::Quit };
-    program::read_orders(lines, at_end, limits, controls)
+    program::read_orders(lines, at_end, limits, crew)
 }
 
 /// MAVLink before the flight.
-struct Station {
-    wanted: Wanted,
+pub(super) struct Station {
+    pub(super) wanted: Wanted,
     listener: mavlink::Listener,
 }
 
 impl Station {
-    fn bind(wanted: Wanted) -> Result<Self, CommandError> {
+    pub(super) fn bind(wanted: Wanted) -> Result<Self, CommandError> {
         let listener = mavlink::Listener::bind(wanted.remotes.clone())?;
         Ok(Self { wanted, listener })
     }
 
-    fn open(
+    pub(super) fn open(
         self,
         runtime: &Runtime,
         controls: &Controls,
@@ -242,6 +246,7 @@ struct Outputs<'a> {
     /// The mission's steps, for messages that refer to one of them.
     steps: Vec<Step>,
     mock: Option<MockDrone>,
+    start: Start,
     browser: Option<Browser>,
     recording: Option<Recording>,
     truths: Vec<TrueWaypoint>,
@@ -260,7 +265,7 @@ impl Outputs<'_> {
             print_object(&json::message(message, &self.steps));
         }
         if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
-            self.truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
+            self.truths.push(TrueWaypoint::new(waypoint, &mock.truth(), &self.start));
         }
         if let Some(browser) = &self.browser {
             browser.show(message);
@@ -273,7 +278,7 @@ impl Outputs<'_> {
 }
 
 /// Prints one JSON line.
-fn print_object(object: &Value) {
+pub(super) fn print_object(object: &Value) {
     terminal::print(format_args!("{}\n", json::text(object)));
 }
 
@@ -327,6 +332,11 @@ impl Watch {
     }
 }
 
+/// The time, since the Unix epoch.
+pub(super) fn since_epoch() -> Duration {
+    (UtcDateTime::now() - UtcDateTime::UNIX_EPOCH).try_into().unwrap_or_default()
+}
+
 /// Starts recording the flight unless it is switched off.
 fn record(
     arguments: &Fly,
@@ -337,26 +347,38 @@ fn record(
     if arguments.no_log {
         return Ok(None);
     }
-    let start = UtcDateTime::now() - UtcDateTime::UNIX_EPOCH;
-    let start = start.try_into().unwrap_or_default();
+    let start = since_epoch();
     let path = match &arguments.log {
         Some(path) => path.clone(),
-        None => default_log(start, vehicle)?,
+        None => make_folder(FLIGHTS.into())?.join(recording::file_name(start, vehicle)),
     };
     let header = Header {
         vehicle,
         start,
-        plan_name: plan.map_or("", Plan::name).to_owned(),
-        plan: plan.map_or("", Plan::text).to_owned(),
         settings: settings.to_toml()?,
         z_origin: arguments.z_origin(),
         drone: drone_name(arguments).to_owned(),
+        ..Header::default()
     };
-    let (mut recorder, recording) = Recorder::start(&path, &header)?;
+    Ok(Some(record_to(&path, header, plan)?))
+}
+
+/// Starts recording a flight with a plan, or without one.
+pub(super) fn record_to(
+    path: &Path,
+    header: Header,
+    plan: Option<&Plan>,
+) -> Result<(Recorder, Recording), CommandError> {
+    let header = Header {
+        plan_name: plan.map_or("", Plan::name).to_owned(),
+        plan: plan.map_or("", Plan::text).to_owned(),
+        ..header
+    };
+    let (mut recorder, recording) = Recorder::start(path, &header)?;
     for note in plan.into_iter().flat_map(Plan::notes) {
         recorder.note(Duration::ZERO, note.clone());
     }
-    Ok(Some((recorder, recording)))
+    Ok((recorder, recording))
 }
 
 /// What the page offers besides the flight.
@@ -396,15 +418,14 @@ fn log_folder(arguments: &Fly) -> PathBuf {
     }
 }
 
-/// A new file in the usual folder.
-fn default_log(start: Duration, vehicle: VehicleName) -> Result<PathBuf, CommandError> {
-    let folder = PathBuf::from(FLIGHTS);
+/// Makes a folder unless there is one.
+pub(super) fn make_folder(folder: PathBuf) -> Result<PathBuf, CommandError> {
     std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
         what: "the folder",
         path: folder.display().to_string(),
         source,
     })?;
-    Ok(folder.join(recording::file_name(start, vehicle)))
+    Ok(folder)
 }
 
 /// Starts the video if the page may show it, or it is recorded.
@@ -425,19 +446,22 @@ fn watch_video(
     Some(Video::start(runtime, &host, port, recorder))
 }
 
-fn drone_address(arguments: &Fly, mock: Option<&MockDrone>) -> DroneAddress {
-    match mock.map(MockDrone::ports) {
-        Some(ports) => DroneAddress {
-            host: ports.host.to_string(),
-            at_port: ports.at,
-            navdata_port: ports.navdata,
-            control_port: ports.control,
-        },
-        None => DroneAddress {
-            host: arguments.drone.clone(),
-            at_port: arguments.at_port,
-            navdata_port: arguments.navdata_port,
-            control_port: arguments.control_port,
-        },
+fn drone_address(arguments: &Fly) -> DroneAddress {
+    DroneAddress {
+        host: arguments.drone.clone(),
+        at_port: arguments.at_port,
+        navdata_port: arguments.navdata_port,
+        control_port: arguments.control_port,
+    }
+}
+
+/// Where a simulated drone is.
+pub(super) fn mock_address(mock: &MockDrone) -> DroneAddress {
+    let ports = mock.ports();
+    DroneAddress {
+        host: ports.host.to_string(),
+        at_port: ports.at,
+        navdata_port: ports.navdata,
+        control_port: ports.control,
     }
 }

@@ -18,14 +18,17 @@ use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
 };
 
+use super::crew::Crew;
 use super::prompt::{Edited, Prompt, PromptLine};
 use super::terminal;
-use crate::flight::Controls;
-use crate::typed::{self, TypedError};
+use crate::typed::{self, Typed, TypedError};
 
 /// Summary of the keys.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
     wasd and arrows fly by hand, e and then Enter cuts the motors, : types an order (`:help`)";
+/// What they are for besides, in a fleet.
+pub(super) const HELP_OF_FLEET: &str =
+    "1 to 9 choose a vehicle, 0 all: space, r, l and e are for those; q lands all, whoever is chosen";
 
 /// Stick fraction of one key. Terminals repeat a held key, but do not report its release.
 const STICK: f64 = 0.4;
@@ -46,6 +49,8 @@ enum Action {
     Confirm,
     /// Opens the prompt.
     Type,
+    /// Chooses a vehicle.
+    Choose(usize),
 }
 
 /// Maps keys to actions.
@@ -69,6 +74,9 @@ impl Keymap {
             KeyCode::Char('l') => Some(Action::Order(OperatorOrder::Land)),
             KeyCode::Char('q') => Some(Action::Stop),
             KeyCode::Char(':') => Some(Action::Type),
+            KeyCode::Char(digit @ '0'..='9') => {
+                digit.to_digit(10).map(|place| Action::Choose(place as usize))
+            }
             KeyCode::Char('w') => steer(Sticks { pitch: -STICK, ..rest }),
             KeyCode::Char('s') => steer(Sticks { pitch: STICK, ..rest }),
             KeyCode::Char('a') => steer(Sticks { roll: -STICK, ..rest }),
@@ -108,9 +116,9 @@ pub(super) struct Keys {
 }
 
 impl Keys {
-    /// Starts reading keys for a flight, if standard input is a terminal.
+    /// Starts reading keys, if standard input is a terminal.
     pub(super) fn start(
-        controls: Controls,
+        crew: Crew,
         limits: &FlightLimits,
         line: PromptLine,
     ) -> Option<Self> {
@@ -129,7 +137,7 @@ impl Keys {
             let (ended, limits) = (Arc::clone(&ended), *limits);
             std::thread::Builder::new()
                 .name("keys".to_owned())
-                .spawn(move || read_keys(&controls, &limits, line, &ended))
+                .spawn(move || read_keys(crew, &limits, line, &ended))
         };
         let keys = Self { ended, thread: thread.ok(), before };
         keys.thread.is_some().then_some(keys)
@@ -156,7 +164,7 @@ impl Drop for Keys {
     }
 }
 
-fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended: &AtomicBool) {
+fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &AtomicBool) {
     let start = Instant::now();
     let answers = line.clone();
     let mut prompt = Prompt::new(line);
@@ -181,35 +189,59 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
             _ = answers.take_answer();
             if prompt.is_open() {
                 if let Edited::Entered(line) = prompt.key(key, typed::completions)
-                    && let Err(error) = typed::obey(&line, limits, controls, Operator::TERMINAL)
+                    && let Err(said) = obey(&line, limits, &crew)
                 {
-                    answers.show_answer(answer(&line, &error));
+                    answers.show_answer(said);
                 }
                 continue;
             }
             match keymap.action(start.elapsed(), unshifted(key)) {
                 Some(Action::Type) => prompt.open(),
-                Some(action) => act(controls, action),
+                Some(Action::Choose(place)) => {
+                    if crew.choose(place) {
+                        answers.show_answer(format!("orders are for {crew}"));
+                    }
+                }
+                Some(action) => act(&crew, action),
                 None => {}
             }
         }
     }
 }
 
-/// What is said to a typed line that was not carried out.
-fn answer(line: &str, error: &TypedError) -> String {
-    match error {
-        TypedError::Help(_) => error.to_string(),
-        _ => format!(":{line}\n{}", terminal::Causes(error)),
+/// Carries out a typed line, or returns what is said to it.
+fn obey(line: &str, limits: &FlightLimits, crew: &Crew) -> Result<(), String> {
+    let told = |error: &dyn std::error::Error| format!(":{line}\n{}", terminal::Causes(error));
+    let (named, order) = crew.named_first(line);
+    if let Ok(Typed::Order(order)) = typed::parse(order, limits)
+        && named.takes_as_one(&order)
+    {
+        return named.ask(Operator::TERMINAL, &order).map_err(|error| told(&error));
     }
+    if let Ok(Typed::Quit) = typed::parse(order, limits) {
+        named.quit();
+        return Ok(());
+    }
+    let controls = named.only().map_err(|error| told(&error))?;
+    typed::obey(order, limits, controls, Operator::TERMINAL).map_err(|error| match error {
+        TypedError::Help(_) => error.to_string(),
+        _ => told(&error),
+    })
 }
 
-fn act(controls: &Controls, action: Action) {
+fn act(crew: &Crew, action: Action) {
     let taken = match action {
         // Held keys repeat, so their answers are not awaited.
-        Action::Order(order @ OperatorOrder::Steer(_)) => controls.order(Operator::TERMINAL, order),
-        Action::Order(order) => controls.ask(Operator::TERMINAL, order),
-        Action::Stop if controls.quit() => Ok(()),
+        Action::Order(order @ OperatorOrder::Steer(_)) => match crew.only() {
+            Ok(controls) => controls.order(Operator::TERMINAL, order),
+            // Nobody steers several at once.
+            Err(error) => {
+                tracing::warn!("{error}, with its number");
+                Ok(())
+            }
+        },
+        Action::Order(order) => crew.ask(Operator::TERMINAL, &order),
+        Action::Stop if crew.everyone().quit() => Ok(()),
         Action::Stop => Err(Refused::Left),
         Action::Confirm => {
             tracing::warn!(
@@ -217,7 +249,7 @@ fn act(controls: &Controls, action: Action) {
             );
             Ok(())
         }
-        Action::Type => Ok(()),
+        Action::Type | Action::Choose(_) => Ok(()),
     };
     if let Err(refused) = taken {
         tracing::warn!("{refused}");

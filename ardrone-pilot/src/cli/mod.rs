@@ -2,6 +2,9 @@
 
 mod arguments;
 mod check;
+mod check_fleet;
+mod crew;
+mod fleet;
 mod fly;
 mod keys;
 mod mavlink;
@@ -24,9 +27,11 @@ use clap_complete::Shell;
 use mock_drone::server::ServerError;
 
 use self::arguments::{Arguments, Command};
+use self::fleet::MembersError;
 use self::mavlink::MavlinkArgumentError;
 use self::screen::Warnings;
 use crate::browser::BrowserError;
+use crate::fleet::FleetError;
 use crate::flight::FlightError;
 use crate::mavlink::MavlinkError;
 use crate::plan_drawing::PlanDrawingError;
@@ -50,6 +55,10 @@ enum CommandError {
     PrintSettings(#[from] toml::ser::Error),
     #[error(transparent)]
     Plan(#[from] PlanError),
+    #[error(transparent)]
+    Fleet(#[from] FleetError),
+    #[error(transparent)]
+    Members(#[from] MembersError),
     #[error("{path}")]
     Log { path: String, source: LogError },
     #[error(transparent)]
@@ -81,6 +90,8 @@ impl CommandError {
         match self {
             Self::Read { .. }
             | Self::Plan(_)
+            | Self::Fleet(_)
+            | Self::Members(_)
             | Self::Settings(_)
             | Self::Log { .. }
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
@@ -116,7 +127,11 @@ pub fn main() -> ExitCode {
         .log_internal_errors(false)
         .init();
     let done = match (&arguments.command, &arguments.fly) {
+        (Some(Command::Check(arguments)), _) if check_fleet::is_fleet(&arguments.plan) => {
+            check_fleet::run(arguments)
+        }
         (Some(Command::Check(arguments)), _) => check::run(arguments),
+        (Some(Command::Fleet(arguments)), _) => fleet::run(arguments),
         (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Video { log, output }), _) => write_video(log, output.as_deref()),
@@ -126,7 +141,12 @@ pub fn main() -> ExitCode {
         (None, flight) => fly::run(flight, &warnings),
     };
     let status = done.unwrap_or_else(|error| {
-        let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
+        let is_rendered = matches!(
+            error,
+            CommandError::Plan(_)
+                | CommandError::Fleet(FleetError::Invalid(_) | FleetError::Plan(_))
+        );
+        let prefix = if is_rendered { "" } else { "error: " };
         terminal::print_message(format_args!("{prefix}{}", terminal::Causes(&error)));
         error.exit_status()
     });

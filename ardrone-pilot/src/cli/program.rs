@@ -5,12 +5,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use autopilot::plan::{FlightLimits, TagUse};
-use autopilot::vehicle::{Operator, OperatorOrder, Refused, VehicleName};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use serde_json::{Value, json};
 
+use super::crew::Crew;
 use super::terminal;
-use crate::flight::Controls;
 use crate::json;
 use crate::ordered;
 use crate::typed::{self, Typed};
@@ -55,10 +55,10 @@ pub(super) fn read_orders(
     lines: Lines,
     at_end: AtEnd,
     limits: &FlightLimits,
-    controls: Controls,
+    crew: Crew,
 ) -> std::io::Result<()> {
-    let (vehicle, limits) = (controls.vehicle(), *limits);
-    let desk = Desk { controls, landings: Arc::default() };
+    let limits = *limits;
+    let desk = Desk::default();
     let (waiting, orders) = bounded(WAITING);
     let (answering, answers) = unbounded::<(Caller, Receiver<Result<(), Refused>>)>();
     let passing = desk.clone();
@@ -78,23 +78,23 @@ pub(super) fn read_orders(
         let mut input = BufReader::new(std::io::stdin());
         while let Some(line) = next_line(&mut input) {
             let (caller, wanted) = match lines {
-                Lines::Json => parse_json(line, &limits, vehicle),
-                Lines::Typed => parse_typed(line, &limits),
+                Lines::Json => parse_json(line, &limits, &crew),
+                Lines::Typed => parse_typed(line, &limits, &crew),
             };
             desk.take(caller, wanted, &waiting);
         }
         if at_end == AtEnd::Quit {
-            desk.stop(Controls::quit);
+            desk.stop(|| crew.quit());
         }
     })?;
     Ok(())
 }
 
-/// What a line asks for.
-#[derive(Debug, Clone, PartialEq)]
+/// What a line asks for, and of whom.
+#[derive(Debug, Clone)]
 enum Wanted {
-    Order(OperatorOrder),
-    Quit,
+    Order(Crew, OperatorOrder),
+    Quit(Crew),
 }
 
 /// Who gets the answer to a line.
@@ -129,15 +129,15 @@ impl Caller {
 #[derive(Debug)]
 struct Waiting {
     caller: Caller,
+    whose: Crew,
     order: OperatorOrder,
     landings: u64,
 }
 
-/// Passes orders on to the tick loop. A landing overtakes whatever waits in front of it, and what it has
+/// Passes orders on to the tick loops. A landing overtakes whatever waits in front of it, and what it has
 /// overtaken is not carried out any more: it could lift the drone again.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct Desk {
-    controls: Controls,
     /// Landings, cuts and ends so far. Held while an order is passed on, so that none is passed on behind a
     /// landing that was read behind it.
     landings: Arc<Mutex<u64>>,
@@ -152,27 +152,31 @@ impl Desk {
     fn take(&self, caller: Caller, wanted: Result<Wanted, String>, waiting: &Sender<Waiting>) {
         match wanted {
             Err(reason) => caller.answer(Err(reason)),
-            Ok(Wanted::Quit) => {
-                let heard = self.stop(Controls::quit);
+            Ok(Wanted::Quit(whose)) => {
+                let heard = self.stop(|| whose.quit());
                 caller.answer(if heard { Ok(()) } else { Err(Refused::Left.to_string()) });
             }
-            Ok(Wanted::Order(order @ (OperatorOrder::Land | OperatorOrder::Cut))) => {
-                let taken = self.stop(|controls| controls.order(Operator::PROGRAM, order));
+            Ok(Wanted::Order(whose, order @ (OperatorOrder::Land | OperatorOrder::Cut))) => {
+                let taken = self.stop(|| whose.order(Operator::PROGRAM, &order));
                 caller.answer(taken.map_err(|refused| refused.to_string()));
             }
-            Ok(Wanted::Order(order)) => {
+            Ok(Wanted::Order(whose, order)) if whose.takes_as_one(&order) => {
+                let taken = whose.order(Operator::PROGRAM, &order);
+                caller.answer(taken.map_err(|refused| refused.to_string()));
+            }
+            Ok(Wanted::Order(whose, order)) => {
                 let landings = *self.landings();
-                if let Err(full) = waiting.try_send(Waiting { caller, order, landings }) {
+                if let Err(full) = waiting.try_send(Waiting { caller, whose, order, landings }) {
                     full.into_inner().caller.answer(Err(Refused::Busy.to_string()));
                 }
             }
         }
     }
 
-    fn stop<T>(&self, order: impl FnOnce(&Controls) -> T) -> T {
+    fn stop<T>(&self, order: impl FnOnce() -> T) -> T {
         let mut landings = self.landings();
         *landings += 1;
-        order(&self.controls)
+        order()
     }
 
     fn pass_on(
@@ -180,7 +184,11 @@ impl Desk {
         waiting: Waiting,
         answering: &Sender<(Caller, Receiver<Result<(), Refused>>)>,
     ) {
-        let Waiting { caller, order, landings } = waiting;
+        let Waiting { caller, whose, order, landings } = waiting;
+        let controls = match whose.only() {
+            Ok(controls) => controls,
+            Err(error) => return caller.answer(Err(error.to_string())),
+        };
         let attempts = OFFERED_FOR.as_millis() / OFFER_AGAIN.as_millis();
         for _ in 0..attempts {
             let (sender, answer) = bounded(1);
@@ -191,7 +199,7 @@ impl Desk {
             }
             // There is room for the answer, and the receiver may have given up.
             let reply = move |answer| _ = sender.try_send(answer);
-            match self.controls.order_answered(Operator::PROGRAM, order.clone(), reply) {
+            match controls.order_answered(Operator::PROGRAM, order.clone(), reply) {
                 Ok(()) => {
                     // The thread that answers ends with the process.
                     _ = answering.send((caller, answer));
@@ -256,14 +264,16 @@ fn skip_line(input: &mut impl BufRead) -> Option<()> {
 fn parse_typed(
     line: Result<String, TooLong>,
     limits: &FlightLimits,
+    crew: &Crew,
 ) -> (Caller, Result<Wanted, String>) {
     let line = match line {
         Ok(line) => line,
         Err(error) => return (Caller::Typed(String::new()), Err(error.to_string())),
     };
-    let wanted = match typed::parse(&line, limits) {
-        Ok(Typed::Order(order)) => Ok(Wanted::Order(order)),
-        Ok(Typed::Quit) => Ok(Wanted::Quit),
+    let (whose, order) = crew.named_first(&line);
+    let wanted = match typed::parse(order, limits) {
+        Ok(Typed::Order(order)) => Ok(Wanted::Order(whose, order)),
+        Ok(Typed::Quit) => Ok(Wanted::Quit(whose)),
         Err(error) => Err(terminal::Causes(&error).to_string()),
     };
     (Caller::Typed(line), wanted)
@@ -272,11 +282,12 @@ fn parse_typed(
 fn parse_json(
     line: Result<String, TooLong>,
     limits: &FlightLimits,
-    vehicle: VehicleName,
+    crew: &Crew,
 ) -> (Caller, Result<Wanted, String>) {
-    let answer =
-        |id: Value| Caller::Json(json!({ "type": "answer", "id": id, "vehicle": vehicle }));
-    let unnamed = |reason: String| (answer(Value::Null), Err(reason));
+    let answer = |id: Value, whose: &Crew| {
+        Caller::Json(json!({ "type": "answer", "id": id, "vehicle": whose.vehicle() }))
+    };
+    let unnamed = |reason: String| (answer(Value::Null, crew), Err(reason));
     let line = match line {
         Ok(line) => line,
         Err(error) => return unnamed(error.to_string()),
@@ -285,44 +296,110 @@ fn parse_json(
         Ok(object) => object,
         Err(error) => return unnamed(format!("not JSON: {error}")),
     };
-    let id = object.as_object_mut().and_then(|object| object.remove("id")).unwrap_or(Value::Null);
-    let wanted = ordered::take_vehicle(&mut object, vehicle).and_then(|()| {
-        match object.get("order").and_then(Value::as_str) {
-            Some("quit") => Ok(Wanted::Quit),
-            _ => ordered::read(&object, limits, TagUse::Unknown).map(Wanted::Order),
-        }
-    });
-    (answer(id), wanted.map_err(|error| error.to_string()))
+    let mut take = |key| object.as_object_mut().and_then(|object| object.remove(key));
+    let id = take("id").unwrap_or(Value::Null);
+    let whose = match take("vehicle") {
+        None => Ok(crew.clone()),
+        Some(name) => name.as_str().and_then(|name| crew.named(name)).ok_or(name),
+    };
+    let whose = match whose {
+        Ok(whose) => whose,
+        Err(name) => return (answer(id, crew), Err(format!("there is no vehicle {name}"))),
+    };
+    let wanted = match object.get("order").and_then(Value::as_str) {
+        Some("quit") => Ok(Wanted::Quit(whose.clone())),
+        _ => ordered::read(&object, limits, TagUse::Unknown)
+            .map(|order| Wanted::Order(whose.clone(), order)),
+    };
+    (answer(id, &whose), wanted.map_err(|error| error.to_string()))
 }
 
 #[cfg(test)]
 mod tests {
-    use autopilot::vehicle::Place;
+    use autopilot::vehicle::{Place, VehicleName};
 
+    use super::super::crew::NoneChosen;
     use super::*;
+    use crate::flight::Controls;
+
+    /// What is ordered of whom; no order is the end.
+    type Read = Result<Option<(Crew, OperatorOrder)>, String>;
+
+    fn read(line: &str, crew: &Crew) -> (Caller, Read) {
+        let (caller, wanted) = parse_json(Ok(line.to_owned()), &FlightLimits::default(), crew);
+        let wanted = wanted.map(|wanted| match wanted {
+            Wanted::Order(whose, order) => Some((whose, order)),
+            Wanted::Quit(_) => None,
+        });
+        (caller, wanted)
+    }
+
+    fn fleet() -> Crew {
+        let named = |name: &str| Controls::of_nobody(name.parse().unwrap());
+        Crew::new(["left", "right"].map(named).into())
+    }
+
+    #[test]
+    fn an_order_names_its_vehicle_of_several() {
+        let crew = fleet();
+        let whose = |line: &str| {
+            let (caller, wanted) = read(line, &crew);
+            let Caller::Json(answer) = caller else { panic!() };
+            (answer["vehicle"].clone(), wanted.map(|order| order.unwrap().0.to_string()))
+        };
+        let right = whose(r#"{"vehicle":"right","order":"start","when_ready":true}"#);
+        assert_eq!(right, (json!("right"), Ok("right".to_owned())));
+        assert_eq!(whose(r#"{"order":"land"}"#), (Value::Null, Ok("all vehicles".to_owned())));
+        assert!(whose(r#"{"vehicle":"middle","order":"land"}"#).1.unwrap_err().contains("middle"));
+        let typed = |line: &str| {
+            match parse_typed(Ok(line.to_owned()), &FlightLimits::default(), &crew).1 {
+                Ok(Wanted::Order(whose, order)) => (whose.to_string(), order),
+                other => panic!("{line}: {other:?}"),
+            }
+        };
+        assert_eq!(typed("left hold"), ("left".to_owned(), OperatorOrder::Hold));
+        assert_eq!(typed("hold"), ("all vehicles".to_owned(), OperatorOrder::Hold));
+    }
+
+    #[test]
+    fn several_take_only_what_each_can_do_where_it_is() {
+        let (crew, left) = (fleet(), fleet().named("left").unwrap());
+        for order in [OperatorOrder::Hold, OperatorOrder::Land, OperatorOrder::Cut] {
+            assert!(crew.takes_as_one(&order) && !left.takes_as_one(&order), "{order:?}");
+        }
+        assert!(!crew.takes_as_one(&OperatorOrder::Start { when_ready: true }));
+        assert_eq!(crew.only().err(), Some(NoneChosen));
+        assert_eq!(left.only().unwrap().vehicle().as_str(), "left");
+        let mut chosen = crew;
+        assert!(chosen.choose(2) && chosen.to_string() == "right");
+        assert!(!chosen.choose(3) && chosen.to_string() == "right");
+        assert!(chosen.choose(0) && chosen.only().is_err());
+        let mut alone = Crew::new(vec![Controls::of_nobody(VehicleName::default())]);
+        assert!(!alone.choose(1) && alone.only().is_ok());
+    }
 
     #[test]
     fn objects_are_orders() {
+        let crew = Crew::new(vec![Controls::of_nobody(VehicleName::default())]);
         let requested = |line: &str| {
-            let limits = FlightLimits::default();
-            let (caller, wanted) = parse_json(Ok(line.to_owned()), &limits, VehicleName::default());
+            let (caller, wanted) = read(line, &crew);
             let answer = json!({ "type": "answer", "id": 7, "vehicle": "ardrone" });
             assert_eq!(caller, Caller::Json(answer));
-            wanted
+            wanted.map(|order| order.map(|(_, order)| order))
         };
-        let order = |order| Ok(Wanted::Order(order));
+        let order = |order| Ok(Some(order));
         assert_eq!(requested(r#"{"id":7,"order":"hold"}"#), order(OperatorOrder::Hold));
-        assert_eq!(requested(r#"{"id":7,"order":"quit"}"#), Ok(Wanted::Quit));
+        assert_eq!(requested(r#"{"id":7,"order":"quit"}"#), Ok(None));
         let named = requested(r#"{"id":7,"vehicle":"ardrone","order":"land"}"#);
         assert_eq!(named, order(OperatorOrder::Land));
         let start = requested(r#"{"id":7,"order":"start","when_ready":true}"#);
         assert_eq!(start, order(OperatorOrder::Start { when_ready: true }));
         let load = requested(r#"{"id":7,"order":"load","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
         assert!(
-            matches!(load, Ok(Wanted::Order(OperatorOrder::Load(plan))) if plan.steps().len() == 3)
+            matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3)
         );
         let append = requested(r#"{"id":7,"order":"append","commands":"goto 1 0 0 0"}"#);
-        assert!(matches!(append, Ok(Wanted::Order(OperatorOrder::Append(_)))));
+        assert!(matches!(append, Ok(Some(OperatorOrder::Append(_)))));
         let high = Place { height_m: Some(1.5), ..Place::default() };
         let go_to = requested(r#"{"id":7,"order":"goto","height_m":1.5}"#);
         assert_eq!(go_to, order(OperatorOrder::GoTo(high)));

@@ -4,7 +4,7 @@ use std::io::stderr;
 use std::time::Duration;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK, Telemetry};
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK, Telemetry, VehicleName};
 use rustix::termios::tcgetwinsize;
 
 use super::prompt::PromptLine;
@@ -13,56 +13,74 @@ use crate::flight::{Content, Message};
 
 /// Interval of status lines in plain mode.
 const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
+/// Navdata older than this are told of.
+const STALE: Duration = Duration::from_millis(300);
 
 /// Prints events as lines, and the status on a line that is overwritten, or in plain mode as one line per
 /// second. Everything goes to standard error, because it is meant for people.
 pub(super) struct Progress {
-    steps: Vec<Step>,
+    /// In the order of the fleet.
+    vehicles: Vec<Watched>,
     prompt: PromptLine,
     plain: bool,
     status_shown: bool,
+}
+
+/// What is known of a vehicle.
+struct Watched {
+    name: VehicleName,
+    steps: Vec<Step>,
+    /// Its part of the line that is overwritten.
+    status: String,
     next_plain_status: Duration,
 }
 
 impl Progress {
-    pub(super) fn new(prompt: PromptLine, plain: bool) -> Self {
-        Self {
+    /// Of these vehicles; lines of several begin with their names.
+    pub(super) fn new(
+        prompt: PromptLine,
+        plain: bool,
+        names: impl IntoIterator<Item = VehicleName>,
+    ) -> Self {
+        let watched = |name| Watched {
+            name,
             steps: Vec::new(),
-            prompt,
-            plain,
-            status_shown: false,
+            status: String::new(),
             next_plain_status: Duration::ZERO,
-        }
+        };
+        let vehicles = names.into_iter().map(watched).collect();
+        Self { vehicles, prompt, plain, status_shown: false }
     }
 
     pub(super) fn show(&mut self, message: &Message) {
         if let Some(answer) = self.prompt.take_answer() {
             self.print_line(&answer);
         }
-        match &message.content {
-            Content::Telemetry(at, telemetry, _) => self.tell(*at, telemetry),
-            Content::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
-            Content::Realtime(realtime) => self.print_line(&realtime.to_string()),
+        let place = self.vehicles.iter().position(|watched| watched.name == message.vehicle);
+        let Some(place) = place else { return };
+        let line = match &message.content {
+            Content::Telemetry(at, Telemetry::Status(status), _) => {
+                return self.status(place, *at, status);
+            }
+            Content::Telemetry(at, telemetry, _) => {
+                self.vehicles[place].line(telemetry).map(|text| format!("{} {text}", time(*at)))
+            }
+            Content::Trouble(at, trouble) => Some(format!("{} {trouble}", time(*at))),
+            Content::Realtime(realtime) => Some(realtime.to_string()),
+        };
+        if let Some(line) = line {
+            self.print_line(&format!("{}{line}", self.whose(place)));
         }
     }
 
-    fn tell(&mut self, at: Duration, telemetry: &Telemetry) {
-        let text = match telemetry {
-            Telemetry::Event(event) => Some(self.event_text(event)),
-            Telemetry::Readiness(reasons) => readiness(reasons),
-            Telemetry::Ended(outcome, _) => Some(outcome.to_string()),
-            Telemetry::Waypoint(_) => None,
-            Telemetry::Mission { steps, .. } => {
-                self.steps.clone_from(steps);
-                None
+    /// What a line begins with.
+    fn whose(&self, place: usize) -> String {
+        let names = self.vehicles.iter().map(|watched| watched.name.as_str().len());
+        match names.max() {
+            Some(width) if self.vehicles.len() > 1 => {
+                format!("{:<width$} ", self.vehicles[place].name.as_str())
             }
-            Telemetry::Status(status) => {
-                self.status(at, status);
-                None
-            }
-        };
-        if let Some(text) = text {
-            self.print_line(&format!("{} {text}", time(at)));
+            _ => String::new(),
         }
     }
 
@@ -87,30 +105,68 @@ impl Progress {
         }
     }
 
-    fn event_text(&self, event: &FlightEvent) -> String {
-        match event {
-            FlightEvent::StepStarted { step } => {
-                let text = self.steps.get(*step).map_or("", |step| step.text.as_str());
-                format!("step {}/{}: {text}", step + 1, self.steps.len())
+    fn status(&mut self, place: usize, at: Duration, status: &Status) {
+        let whose = self.whose(place);
+        let is_alone = self.vehicles.len() == 1;
+        let watched = &mut self.vehicles[place];
+        if self.plain {
+            // In standby the status line would not change.
+            if status.phase != Phase::Standby && at + TICK > watched.next_plain_status {
+                watched.next_plain_status = at + PLAIN_STATUS_INTERVAL;
+                self.print_line(&format!("{whose}{}", status_line(at, status)));
             }
-            other => other.to_string(),
+            return;
         }
-    }
-
-    fn status(&mut self, at: Duration, status: &Status) {
-        let line = match self.prompt.shown() {
-            Some(prompt) if !self.plain => prompt,
-            _ => status_line(at, status),
+        watched.status = if is_alone {
+            status_line(at, status)
+        } else {
+            format!("{} {}", watched.name, short_status(status))
         };
-        if !self.plain {
-            terminal::show(shortened(&line, terminal_columns()));
-            self.status_shown = true;
-        // In standby the status line would not change.
-        } else if status.phase != Phase::Standby && at + TICK > self.next_plain_status {
-            self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
-            self.print_line(&line);
+        let all = || self.vehicles.iter().map(|watched| watched.status.as_str());
+        let line = self.prompt.shown().unwrap_or_else(|| all().collect::<Vec<_>>().join(" | "));
+        terminal::show(shortened(&line, terminal_columns()));
+        self.status_shown = true;
+    }
+}
+
+impl Watched {
+    /// What is said of it in a line of its own.
+    fn line(&mut self, telemetry: &Telemetry) -> Option<String> {
+        match telemetry {
+            Telemetry::Event(FlightEvent::StepStarted { step }) => {
+                let text = self.steps.get(*step).map_or("", |step| step.text.as_str());
+                Some(format!("step {}/{}: {text}", step + 1, self.steps.len()))
+            }
+            Telemetry::Event(event) => Some(event.to_string()),
+            Telemetry::Readiness(reasons) => readiness(reasons),
+            Telemetry::Ended(outcome, _) => Some(outcome.to_string()),
+            Telemetry::Mission { steps, .. } => {
+                self.steps.clone_from(steps);
+                None
+            }
+            Telemetry::Waypoint(_) | Telemetry::Status(_) => None,
         }
     }
+}
+
+/// What matters most of one vehicle among others.
+fn short_status(status: &Status) -> String {
+    let mut text = phase(status).to_owned();
+    if let Some(step) = status.step {
+        text += &format!(" {}/{}", step + 1, status.steps);
+    }
+    match status.navdata_age {
+        Some(age) if age <= STALE => {}
+        _ => text += " NO NAVDATA",
+    }
+    if let Some(battery_percent) = status.battery_percent {
+        text += &format!(" {battery_percent} %");
+    }
+    text
+}
+
+fn phase(status: &Status) -> &'static str {
+    if status.emergency { "EMERGENCY" } else { status.phase.name() }
 }
 
 /// The readiness as text; `None` in flight, where it is not of interest.
@@ -126,8 +182,7 @@ pub(super) fn readiness(reasons: &[NotReady]) -> Option<String> {
 }
 
 fn status_line(at: Duration, status: &Status) -> String {
-    let phase = if status.emergency { "EMERGENCY" } else { status.phase.name() };
-    let mut parts = vec![format!("{} {phase:<11}", time(at))];
+    let mut parts = vec![format!("{} {:<11}", time(at), phase(status))];
     if let Some(step) = status.step {
         parts.push(format!("{}/{}", step + 1, status.steps));
     }
@@ -151,7 +206,7 @@ fn status_line(at: Duration, status: &Status) -> String {
         parts.push(format!(" battery {battery_percent} %"));
     }
     match status.navdata_age {
-        Some(age) if age > Duration::from_millis(300) => {
+        Some(age) if age > STALE => {
             parts.push(format!(" NO NAVDATA for {:.1} s", age.as_secs_f64()));
         }
         Some(_) => {}

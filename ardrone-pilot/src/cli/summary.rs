@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use autopilot::vehicle::Waypoint;
+use autopilot::vehicle::{Start, Waypoint};
 use mock_drone::Truth;
 use nalgebra::Vector2;
 
@@ -18,9 +18,10 @@ pub(super) struct TrueWaypoint {
 }
 
 impl TrueWaypoint {
-    pub(super) fn new(waypoint: &Waypoint, truth: &Truth) -> Self {
+    /// The simulated drone's world begins where it stands at the start.
+    pub(super) fn new(waypoint: &Waypoint, truth: &Truth, start: &Start) -> Self {
         let target = &waypoint.target;
-        let place = truth.odometry_m - Vector2::new(target.x_m, target.y_m);
+        let place = start.in_world(truth.odometry_m) - Vector2::new(target.x_m, target.y_m);
         let height_m = truth.position_m.z - target.z_m;
         Self { error_m: place.norm().hypot(height_m), drift_m: truth.drift_m().norm() }
     }

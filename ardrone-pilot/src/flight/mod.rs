@@ -16,6 +16,7 @@ mod link;
 mod operators;
 mod orders;
 mod real_time;
+mod room;
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
@@ -33,6 +34,7 @@ pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
 use self::orders::Orders;
 use self::real_time::{RealTime, clock};
+pub use self::room::Seat;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
 use crate::recording::Recorder;
@@ -129,6 +131,15 @@ pub enum FlightError {
     Panicked,
 }
 
+/// What a flight is connected to besides its drone.
+#[derive(Debug, Default)]
+pub struct Beside {
+    /// Records it.
+    pub recorder: Option<Recorder>,
+    /// Its place among other vehicles.
+    pub seat: Option<Seat>,
+}
+
 /// A flight in progress. Dropping it lands the drone and waits for the ground.
 #[derive(Debug)]
 pub struct Flight {
@@ -155,7 +166,7 @@ const PARTING_PATIENCE: Duration = Duration::from_secs(3);
 const LOOK: Duration = Duration::from_millis(20);
 
 impl Flight {
-    /// Starts a vehicle, and records it if there is a recorder. With a plan it flies the plan and ends;
+    /// Starts a vehicle. With a plan it flies the plan and ends;
     /// without one, it stays until an operator quits. A signal to the [`Runtime`] lands and exits; a second one exits at once,
     /// with the landing ordered.
     ///
@@ -166,8 +177,9 @@ impl Flight {
         plan: Option<Plan>,
         config: &VehicleConfig,
         drone: &DroneAddress,
-        recorder: Option<Recorder>,
+        beside: Beside,
     ) -> Result<Self, FlightError> {
+        let Beside { recorder, seat } = beside;
         let stay = if plan.is_some() { Stay::UntilFlown } else { Stay::UntilLeft };
         let vehicle = match plan {
             Some(plan) => Vehicle::flying(plan, config)?,
@@ -178,7 +190,7 @@ impl Flight {
         let (orders, controls) = Orders::new(vehicle.name(), runtime.ending().begin_flight());
         let control_port = ControlPort::read(runtime, SocketAddr::new(address, drone.control_port));
         let (sender, messages) = bounded(MESSAGES);
-        let surroundings = RealTime::new(link, orders, control_port);
+        let surroundings = RealTime::new(link, orders, control_port, seat);
         let tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
@@ -377,7 +389,9 @@ impl TickLoop {
             }
             Err(_) => false,
         };
-        if !down {
+        if down {
+            self.driver.surroundings.park();
+        } else {
             self.part();
         }
         end.map(|outcome| self.finished(outcome, down, realtime))
@@ -394,6 +408,7 @@ impl TickLoop {
             after(count);
             count = count.wrapping_add(1);
             tee.recorded = Recorded::default();
+            driver.surroundings.tell(driver.vehicle.as_neighbour(driver.now()));
             let health = driver.surroundings.end_tick();
             tee.health.skipped = health.skipped;
             tee.health.lateness = tee.health.lateness.max(health.lateness);
@@ -512,7 +527,7 @@ mod tests {
         let control_port = ControlPort::read(&runtime, SocketAddr::new(ports.host, ports.control));
         let (sender, messages) = bounded(MESSAGES);
         let stay = Stay::UntilFlown;
-        let surroundings = RealTime::new(link, orders, control_port);
+        let surroundings = RealTime::new(link, orders, control_port, None);
         (TickLoop::new(vehicle, stay, surroundings, None, sender), controls, messages)
     }
 

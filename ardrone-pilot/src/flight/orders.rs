@@ -45,6 +45,12 @@ impl fmt::Debug for Request {
 }
 
 impl Controls {
+    /// Those of a vehicle that has been left.
+    #[cfg(test)]
+    pub(crate) fn of_nobody(vehicle: VehicleName) -> Self {
+        Orders::new(vehicle, crate::runtime::Ending::default().begin_flight()).1
+    }
+
     /// The vehicle that gets the orders.
     pub fn vehicle(&self) -> VehicleName {
         self.vehicle

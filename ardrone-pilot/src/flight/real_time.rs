@@ -2,12 +2,14 @@
 
 use std::time::{Duration, Instant};
 
+use autopilot::separation::Neighbour;
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Stage, Transmit};
 
 use super::LinkSummary;
 use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
+use super::room::Seat;
 use crate::drive::{Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
@@ -30,6 +32,8 @@ pub(super) struct RealTime {
     link: Link,
     orders: Orders,
     control_port: ControlPort,
+    /// Where other vehicles are heard.
+    seat: Option<Seat>,
     start: Instant,
     buffer: Vec<u8>,
     /// Datagrams read in this tick.
@@ -47,11 +51,17 @@ pub(super) struct RealTime {
 }
 
 impl RealTime {
-    pub(super) fn new(link: Link, orders: Orders, control_port: ControlPort) -> Self {
+    pub(super) fn new(
+        link: Link,
+        orders: Orders,
+        control_port: ControlPort,
+        seat: Option<Seat>,
+    ) -> Self {
         Self {
             link,
             orders,
             control_port,
+            seat,
             start: clock(),
             buffer: vec![0_u8; BUFFER_BYTES],
             taken: 0,
@@ -95,6 +105,20 @@ impl RealTime {
         LinkSummary { errors, bound_anew, flooded_ticks, ..LinkSummary::default() }
     }
 
+    /// Tells the other vehicles of this one.
+    pub(super) fn tell(&self, neighbour: Option<Neighbour>) {
+        if let (Some(seat), Some(neighbour)) = (&self.seat, neighbour) {
+            seat.tell(self.start, neighbour);
+        }
+    }
+
+    /// Tells them that its drone stays where it is, on the ground.
+    pub(super) fn park(&self) {
+        if let Some(seat) = &self.seat {
+            seat.park();
+        }
+    }
+
     /// Sends a datagram of AT commands; returns whether the system accepted it.
     pub(super) fn send_datagram(&mut self, now: Duration, datagram: &[u8]) -> bool {
         self.link.send(now, datagram)
@@ -131,6 +155,12 @@ impl RealTime {
     }
 
     fn receive_orders(&mut self, now: Duration, take: &mut impl Take) {
+        if let Some(seat) = &mut self.seat {
+            for neighbour in seat.hear(self.start, now) {
+                // What is not believed is recorded, and its vehicle avoided as one that is not heard.
+                _ = take(now, Input::Neighbour(neighbour));
+            }
+        }
         for bytes in self.control_port.poll() {
             _ = take(now, Input::Control(&bytes));
         }

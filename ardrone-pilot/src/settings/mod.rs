@@ -11,13 +11,14 @@ mod sections;
 mod tags;
 
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{SurveyedTag, VehicleConfig};
+use autopilot::vehicle::{SurveyedTag, VehicleConfig, VehicleName};
 use serde::{Deserialize, Serialize};
 
 pub use self::editor::{Described, with_changes};
 pub(crate) use self::fence::Fence;
 use self::room::Room;
 pub(crate) use self::room::SurveyedStart;
+pub(crate) use self::section::UltrasoundFrequency;
 use self::section::{Declared, Section};
 use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Station, Vehicle, Video};
 pub use self::tags::GivenTag;
@@ -153,6 +154,41 @@ impl Settings {
     /// The tags that are used and surveyed; nothing if tags are not used.
     pub fn surveyed_tags(&self) -> Option<Vec<SurveyedTag>> {
         self.tags.detect.then(|| self.tags.surveyed().map(SurveyedTag::from).collect())
+    }
+
+    /// Settings of all vehicles of a fleet.
+    ///
+    /// # Errors
+    /// [`SettingsError::Values`] if they are out of range.
+    pub(crate) fn share(
+        &mut self,
+        fence: Option<Fence>,
+        separation_m: Option<f64>,
+    ) -> Result<(), SettingsError> {
+        self.fence = fence.unwrap_or_else(|| self.fence.clone());
+        self.room.separation_m = separation_m.unwrap_or(self.room.separation_m);
+        let reasons = self.reasons_against();
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(SettingsError::Values { path: "the fleet".to_owned(), reasons })
+    }
+
+    /// Settings of one vehicle of a fleet.
+    pub(crate) fn give(
+        &mut self,
+        name: VehicleName,
+        system: u8,
+        start: SurveyedStart,
+        peers: Vec<u8>,
+    ) {
+        (self.vehicle.name, self.vehicle.system) = (name, system);
+        (self.room.start, self.room.peers) = (start, peers);
+    }
+
+    /// Which frequency the drone's ultrasound has.
+    pub(crate) fn set_ultrasound(&mut self, frequency: UltrasoundFrequency) {
+        self.drone.ultrasound = frequency;
     }
 
     /// All sections but the tags, whose number varies.

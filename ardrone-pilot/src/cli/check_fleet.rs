@@ -1,0 +1,176 @@
+//! `ardrone-pilot check FLEET.toml`: what becomes of a fleet in simulated time, each vehicle alone and all together.
+
+use std::ffi::OsStr;
+use std::fmt;
+use std::path::Path;
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::vehicle::Start;
+use serde_json::{Value, json};
+
+use super::arguments::CheckPlan;
+use super::{CommandError, terminal};
+use crate::fleet::{self, Fleet, FleetError, Meeting, Member, SimulatedFleet, SimulatedMember};
+use crate::{fleet_drawing, json};
+
+/// Whether a file is that of a fleet, by its name.
+pub(super) fn is_fleet(path: &Path) -> bool {
+    path.extension() == Some(OsStr::new("toml"))
+}
+
+/// Checks a fleet, prints the findings, and draws its ways if asked to.
+pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
+    let name = arguments.plan.display().to_string();
+    let fleet = Fleet::read(&arguments.plan, arguments.z_origin.into())?;
+    let simulated = fleet::fly(&fleet).map_err(FleetError::from)?;
+    let report = Report { name: &name, fleet: &fleet, simulated: &simulated };
+    if arguments.json {
+        terminal::print(json::text_in_lines(&report.json()) + "\n");
+    } else {
+        terminal::print(&report);
+    }
+    if let Some(path) = &arguments.svg {
+        let drawing = fleet_drawing::svg(&name, &fleet, &simulated)?;
+        std::fs::write(path, drawing).map_err(|source| CommandError::Write {
+            what: "the drawing",
+            path: path.display().to_string(),
+            source,
+        })?;
+    }
+    Ok(0)
+}
+
+/// A checked fleet.
+struct Report<'a> {
+    name: &'a str,
+    fleet: &'a Fleet,
+    simulated: &'a SimulatedFleet,
+}
+
+impl Report<'_> {
+    fn member(&self, number: usize) -> &Member {
+        &self.fleet.members[number]
+    }
+
+    /// Those who would come nearer to each other than they may.
+    fn conflicts(&self) -> impl Iterator<Item = &Meeting> {
+        let separation_m = |meeting: &Meeting| self.member(meeting.who[0]).config.separation_m;
+        self.simulated.meetings.iter().filter(move |it| it.alone_m < separation_m(it))
+    }
+
+    /// Those that do not fly their plans to the end with the others.
+    fn short(&self) -> impl Iterator<Item = &SimulatedMember> {
+        self.simulated.members.iter().filter(|member| !is_flown(member.outcome.as_ref()))
+    }
+
+    fn json(&self) -> Value {
+        let members: Vec<Value> = self.simulated.members.iter().map(|it| self.one(it)).collect();
+        let name = |number: usize| self.member(number).config.name;
+        let conflicts = self.conflicts().map(|it| {
+            json!({
+                "vehicles": it.who.map(name),
+                "at_s": it.at.as_secs_f64(),
+                "planned_m": it.alone_m,
+                "kept_apart_m": finite(it.together_m),
+            })
+        });
+        let warnings: Vec<Value> = (self.fleet.warnings.located())
+            .map(|it| {
+                let (line, column) = it.start();
+                let (message, help) = (&it.diagnostic.message, &it.diagnostic.help);
+                json!({ "severity": "warning", "line": line, "column": column, "message": message, "help": help })
+            })
+            .collect();
+        json!({
+            "fleet": self.name,
+            "vehicles": members,
+            "conflicts": conflicts.collect::<Vec<_>>(),
+            "problems": warnings,
+        })
+    }
+
+    fn one(&self, simulated: &SimulatedMember) -> Value {
+        let config = &self.member(simulated.number).config;
+        let Start { place_m, heading_deg, .. } = config.estimator.start.unwrap_or_default();
+        json!({
+            "vehicle": config.name,
+            "system": config.system,
+            "start": [place_m.x, place_m.y, heading_deg],
+            "alone_s": simulated.alone.duration.as_secs_f64(),
+            "battery_percent": simulated.alone.battery_percent,
+            "together_s": simulated.duration.as_secs_f64(),
+            "outcome": outcome(simulated.outcome.as_ref()),
+            "completed": is_flown(simulated.outcome.as_ref()),
+        })
+    }
+}
+
+fn finite(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}
+
+fn is_flown(outcome: Option<&Outcome>) -> bool {
+    outcome.is_some_and(|outcome| outcome.exit_status() == 0)
+}
+
+fn outcome(outcome: Option<&Outcome>) -> String {
+    outcome.map_or("it did not end within 20 minutes".to_owned(), ToString::to_string)
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.1} s", time.as_secs_f64())
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "vehicle           {:>7} {:>7} {:>7}  {:>8} {:>8}  {:>8}",
+            "right", "forward", "heading", "alone", "battery", "together"
+        )?;
+        for member in &self.simulated.members {
+            let config = &self.member(member.number).config;
+            let Start { place_m, heading_deg, .. } = config.estimator.start.unwrap_or_default();
+            writeln!(
+                f,
+                "{:<16}  {:>7.2} {:>7.2} {heading_deg:>6.0}°  {:>8} {:>6.1} %  {:>8}",
+                config.name.as_str(),
+                place_m.x,
+                place_m.y,
+                seconds(member.alone.duration),
+                member.alone.battery_percent,
+                seconds(member.duration),
+            )?;
+        }
+        writeln!(f, "\nstarts in metres; time in the air, each alone and all together\n")?;
+        if !self.fleet.warnings.is_empty() {
+            writeln!(f, "{}\n", self.fleet.warnings)?;
+        }
+        for meeting in self.conflicts() {
+            let [a, b] = meeting.who.map(|number| self.member(number).config.name);
+            write!(
+                f,
+                "{a} and {b}: {:.2} m from each other at {} as planned",
+                meeting.alone_m,
+                seconds(meeting.at)
+            )?;
+            match finite(meeting.together_m) {
+                Some(together_m) => writeln!(f, "; kept apart, never nearer than {together_m:.2} m")?,
+                None => writeln!(f, "; kept apart, never in the air at the same time")?,
+            }
+        }
+        for member in self.short() {
+            let name = self.member(member.number).config.name;
+            let how = if is_flown(member.alone.outcome.as_ref()) { " with the others" } else { "" };
+            let outcome = outcome(member.outcome.as_ref());
+            writeln!(f, "{name}: does not fly its plan to the end{how}: {outcome}")?;
+        }
+        let verdict = match self.short().count() {
+            0 => "can be flown".to_owned(),
+            1 => "can be flown, but one vehicle not to the end of its plan".to_owned(),
+            short => format!("can be flown, but {short} vehicles not to the ends of their plans"),
+        };
+        writeln!(f, "{} {verdict}", self.name)
+    }
+}

@@ -1,0 +1,297 @@
+//! Flying several vehicles in one room.
+
+use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
+
+use ardrone_link::DroneAddress;
+use autopilot::plan::{Plan, Step};
+use autopilot::vehicle::{Start, Telemetry, VehicleName};
+use crossbeam_channel::bounded;
+use mock_drone::server::{MockDrone, Ports};
+use serde_json::json;
+
+use super::arguments::FlyFleet;
+use super::crew::Crew;
+use super::fly::{
+    FLIGHTS, Station, UNSHOWN, make_folder, mock_address, print_object, record_to, since_epoch,
+};
+use super::keys::{self, Keys};
+use super::program::{self, AtEnd, Lines};
+use super::progress::Progress;
+use super::prompt::PromptLine;
+use super::summary::{Summary, TrueWaypoint};
+use super::{CommandError, terminal};
+use crate::fleet::{Fleet, Member};
+use crate::flight::{Beside, Content, FinishedFlight, Flight, Message, Seat};
+use crate::json;
+use crate::mavlink::MavlinkServer;
+use crate::recording::{Header, Recorder, Recording, file_name};
+use crate::runtime::{Runtime, SecondSignal};
+use crate::timing::TimingReport;
+
+/// Exit statuses of flights, the worst first; 0 is none of them.
+const WORST_FIRST: [u8; 8] = [50, 40, 10, 30, 60, 130, 20, 1];
+
+/// Why the vehicles of a fleet cannot be flown.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum MembersError {
+    /// Two have the same drone.
+    #[error(
+        "{} and {} are both to fly the drone at {host}: give each its own `drone`, or --mock",
+        .vehicles[0], .vehicles[1]
+    )]
+    OneDrone {
+        /// Whose.
+        vehicles: [VehicleName; 2],
+        /// Where.
+        host: String,
+    },
+}
+
+/// A vehicle before its flight.
+struct Prepared<'a> {
+    member: &'a Member,
+    mock: Option<MockDrone>,
+    drone: DroneAddress,
+    station: Option<Station>,
+    recorder: Option<Recorder>,
+    recording: Option<Recording>,
+}
+
+/// A vehicle in its flight.
+struct Under<'a> {
+    member: &'a Member,
+    flight: Flight,
+    mavlink: Option<MavlinkServer>,
+}
+
+/// What is shown of a vehicle, and remains of it at the end.
+struct Shown {
+    mock: Option<MockDrone>,
+    start: Start,
+    recording: Option<Recording>,
+    steps: Vec<Step>,
+    truths: Vec<TrueWaypoint>,
+}
+
+/// Flies a fleet; returns the worst exit status.
+pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
+    let fleet = Fleet::read(&arguments.fleet, arguments.z_origin())?;
+    let plain = arguments.plain || !std::io::stderr().is_terminal();
+    let prompt = PromptLine::default();
+    let names = fleet.members.iter().map(|member| member.config.name);
+    let mut progress = Progress::new(prompt.clone(), plain, names);
+    if !fleet.warnings.is_empty() {
+        progress.print_line(&fleet.warnings.to_string());
+    }
+    if !arguments.mock {
+        own_drones(&fleet)?;
+    }
+    let prepared = prepare(&fleet, arguments, &mut progress)?;
+    let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
+    let (mut flying, mut shown) = (Vec::new(), Vec::new());
+    for (prepared, seat) in prepared.into_iter().zip(Seat::in_one_room(fleet.members.len())) {
+        let Prepared { member, mock, drone, station, recorder, recording } = prepared;
+        let beside = Beside { recorder, seat: Some(seat) };
+        // Those that have begun land if one cannot.
+        let flight = Flight::start(&runtime, member.plan.clone(), &member.config, &drone, beside)?;
+        let controls = flight.controls();
+        let mavlink = station.and_then(|station| station.open(&runtime, &controls, &mut progress));
+        flying.push(Under { member, flight, mavlink });
+        let start = member.config.estimator.start.unwrap_or_default();
+        shown.push(Shown { mock, start, recording, steps: Vec::new(), truths: Vec::new() });
+    }
+    let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
+    let limits = fleet.members[0].config.limits;
+    let keys = Keys::start(crew.clone(), &limits, prompt);
+    if keys.is_some() {
+        progress.print_line(keys::HELP);
+        progress.print_line(keys::HELP_OF_FLEET);
+    } else if let Some((lines, at_end)) = input(arguments, &fleet)
+        && let Err(error) = program::read_orders(lines, at_end, &limits, crew)
+    {
+        progress.warn(&format!("no orders can be read: {error}"));
+    }
+    let unshown = pass_on(&flying, |place, message| {
+        let one = &mut shown[place];
+        one.take_in(message, arguments.json);
+        progress.show(message);
+        if let Some(problem) = one.recording.as_ref().and_then(Recording::problem) {
+            progress.warn(&problem.to_string());
+        }
+    });
+    drop(keys);
+    progress.end();
+    let mut statuses = Vec::new();
+    for ((under, shown), unshown) in flying.into_iter().zip(shown).zip(unshown) {
+        statuses.push(finish(under, shown, unshown, arguments)?);
+    }
+    let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
+    if arguments.json {
+        print_object(&json!({ "type": "fleet_end", "exit_status": status }));
+    }
+    Ok(status)
+}
+
+/// Each vehicle needs a drone of its own.
+fn own_drones(fleet: &Fleet) -> Result<(), MembersError> {
+    for (number, member) in fleet.members.iter().enumerate() {
+        let same = fleet.members.iter().take(number).find(|other| other.drone == member.drone);
+        if let Some(other) = same {
+            let vehicles = [other.config.name, member.config.name];
+            return Err(MembersError::OneDrone { vehicles, host: member.drone.host.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// Starts all that can fail before the first drone flies.
+fn prepare<'a>(
+    fleet: &'a Fleet,
+    arguments: &FlyFleet,
+    progress: &mut Progress,
+) -> Result<Vec<Prepared<'a>>, CommandError> {
+    let begun = since_epoch();
+    let logs = if arguments.no_log {
+        None
+    } else {
+        let usual = || Path::new(FLIGHTS).join(file_name(begun, fleet.name)).with_extension("");
+        Some(make_folder(arguments.log.clone().unwrap_or_else(usual))?)
+    };
+    let mut all = Vec::new();
+    for member in &fleet.members {
+        let name = member.config.name;
+        let mock = if arguments.mock {
+            Some(MockDrone::start(&member.world(), Ports::LOOPBACK)?)
+        } else {
+            None
+        };
+        let drone = mock.as_ref().map_or_else(|| member.drone.clone(), mock_address);
+        let label = if mock.is_some() { "mock drone" } else { &drone.host };
+        progress.print_line(&beginning(name, member.plan.as_ref(), label));
+        let station = arguments.mavlink.wanted(&member.config)?.map(Station::bind).transpose()?;
+        if let Some(station) = &station {
+            progress.print_line(&format!("{name}: {}", station.wanted));
+            if let Some(warning) = station.wanted.warning {
+                progress.warn(warning);
+            }
+        }
+        let header = Header {
+            vehicle: name,
+            start: begun,
+            settings: member.settings.to_toml()?,
+            z_origin: arguments.z_origin(),
+            drone: label.to_owned(),
+            ..Header::default()
+        };
+        let path = logs.as_ref().map(|folder| folder.join(format!("{name}.mcap")));
+        let record = |path: PathBuf| record_to(&path, header, member.plan.as_ref());
+        let (recorder, recording) = path.map(record).transpose()?.unzip();
+        all.push(Prepared { member, mock, drone, station, recorder, recording });
+    }
+    Ok(all)
+}
+
+fn beginning(name: VehicleName, plan: Option<&Plan>, drone: &str) -> String {
+    match plan {
+        Some(plan) => format!("{name}: flying {} with {drone}", plan.name()),
+        None => format!("{name}: waiting for orders to {drone}"),
+    }
+}
+
+/// How standard input is read if no keys are.
+fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
+    let waits = fleet.members.iter().any(|member| member.plan.is_none());
+    let at_end =
+        if waits && !arguments.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
+    match (arguments.json, waits) {
+        (true, _) => Some((Lines::Json, at_end)),
+        (false, true) => Some((Lines::Typed, at_end)),
+        // With plans, standard input is ignored.
+        (false, false) => None,
+    }
+}
+
+/// Passes on the messages of all flights until their ends, with the place of the vehicle; returns how many of each were not shown
+/// because they came too fast.
+fn pass_on(flying: &[Under<'_>], mut show: impl FnMut(usize, &Message)) -> Vec<u64> {
+    let (sender, messages) = bounded::<(usize, Message)>(UNSHOWN * flying.len());
+    std::thread::scope(|scope| {
+        let tell = |(place, under): (usize, &Under<'_>), sender: crossbeam_channel::Sender<_>| {
+            let mut unshown = 0;
+            for message in under.flight.messages() {
+                if let Some(mavlink) = &under.mavlink {
+                    mavlink.show(&message);
+                }
+                unshown += u64::from(sender.try_send((place, message)).is_err());
+            }
+            unshown
+        };
+        let threads: Vec<_> = flying
+            .iter()
+            .enumerate()
+            .map(|under| {
+                let sender = sender.clone();
+                scope.spawn(move || tell(under, sender))
+            })
+            .collect();
+        drop(sender);
+        for (place, message) in &messages {
+            show(place, &message);
+        }
+        threads.into_iter().map(|thread| thread.join().unwrap_or_default()).collect()
+    })
+}
+
+impl Shown {
+    fn take_in(&mut self, message: &Message, as_json: bool) {
+        let telemetry = match &message.content {
+            Content::Telemetry(_, telemetry, _) => Some(telemetry),
+            Content::Realtime(_) | Content::Trouble(..) => None,
+        };
+        if let Some(Telemetry::Mission { steps, .. }) = telemetry {
+            self.steps.clone_from(steps);
+        }
+        if as_json {
+            print_object(&json::message(message, &self.steps));
+        }
+        if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
+            self.truths.push(TrueWaypoint::new(waypoint, &mock.truth(), &self.start));
+        }
+    }
+}
+
+/// Ends a flight, and tells what became of it; returns its exit status.
+fn finish(
+    under: Under<'_>,
+    shown: Shown,
+    unshown: u64,
+    arguments: &FlyFleet,
+) -> Result<u8, CommandError> {
+    let Under { member, flight, mavlink } = under;
+    let has_quit = flight.controls().has_quit();
+    drop(mavlink);
+    let mut finished: FinishedFlight = flight.finish()?;
+    finished.dropped_messages += unshown;
+    let flew_a_plan = member.plan.is_some();
+    let status = match finished.outcome.exit_status() {
+        _ if !flew_a_plan && has_quit && finished.is_down => 0,
+        status => status,
+    };
+    let recorded = shown.recording.and_then(Recording::finish);
+    if arguments.json {
+        print_object(&json::end(&finished, recorded.as_ref(), status));
+        return Ok(status);
+    }
+    terminal::print(format_args!("{}: ", finished.vehicle));
+    terminal::print(Summary {
+        finished: &finished,
+        truths: &shown.truths,
+        recorded: recorded.as_ref(),
+        flew_a_plan,
+    });
+    if arguments.timing {
+        terminal::print(TimingReport(&finished.ticks));
+    }
+    Ok(status)
+}

@@ -1,0 +1,153 @@
+//! A fleet flown on simulated drones, in simulated time: whether those that fly alone as planned can fly so together.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::separation::Neighbour;
+use autopilot::vehicle::{CannotFly, Input, Start, Telemetry, Vehicle};
+use kinematics::Pose;
+use nalgebra::Vector2;
+
+use super::members::{Fleet, Member};
+use crate::drive::{Driver, POLL, Passed, Simulated};
+use crate::simulation::{self, SimulatedFlight};
+
+/// Longest simulated time; no battery lasts that long.
+const LONGEST: Duration = Duration::from_mins(20);
+/// Interval of the places.
+const TRACK: Duration = Duration::from_millis(100);
+/// Lower than this a drone is on the ground.
+const UP_M: f64 = 0.1;
+
+/// A fleet's simulated flights: each alone, and all together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedFleet {
+    /// In the order of the fleet, without those that have no plan.
+    pub members: Vec<SimulatedMember>,
+    /// Each two, how near they come to each other in the air.
+    pub meetings: Vec<Meeting>,
+}
+
+/// A vehicle's simulated flights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedMember {
+    /// Its place in the fleet.
+    pub number: usize,
+    /// Its flight if it were alone.
+    pub alone: SimulatedFlight,
+    /// How its flight with the others ended; `None` if it did not within 20 minutes.
+    pub outcome: Option<Outcome>,
+    /// Time in the air with the others.
+    pub duration: Duration,
+    /// Where it truly was in the air with the others, ten times a second.
+    pub track_m: Vec<Vector2<f64>>,
+}
+
+/// How near two vehicles come to each other, across.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Their places in the fleet.
+    pub who: [usize; 2],
+    /// If each flew as if it were alone.
+    pub alone_m: f64,
+    /// When that would be, since their take-off.
+    pub at: Duration,
+    /// As they are kept apart.
+    pub together_m: f64,
+}
+
+struct Flying {
+    number: usize,
+    alone: SimulatedFlight,
+    system: u8,
+    driver: Driver<Simulated>,
+    start: Start,
+    outcome: Option<Outcome>,
+    /// Where it was in each tenth of a second: nowhere on the ground.
+    places_m: Vec<Option<Vector2<f64>>>,
+}
+
+impl Flying {
+    /// Nothing without a plan.
+    fn begin(number: usize, member: &Member) -> Result<Option<Self>, CannotFly> {
+        let (Member { config, plan, .. }, world) = (member, member.world());
+        let Some(plan) = plan else { return Ok(None) };
+        Ok(Some(Self {
+            number,
+            alone: simulation::fly(plan.clone(), config, &world)?,
+            system: config.system,
+            driver: Driver::new(Vehicle::flying(plan.clone(), config)?, &world),
+            start: config.estimator.start.unwrap_or_default(),
+            outcome: None,
+            places_m: Vec::new(),
+        }))
+    }
+
+    /// What it tells the others in a tick.
+    fn step(&mut self, now: Duration) -> Option<Neighbour> {
+        let outcome = &mut self.outcome;
+        let ticked = self.driver.step(|_, passed| {
+            if let Passed::Told(Telemetry::Ended(ended, _)) = passed {
+                *outcome = Some(ended);
+            }
+        });
+        if now >= TRACK * u32::try_from(self.places_m.len()).unwrap_or(u32::MAX) {
+            let position_m = self.driver.world().truth().position_m;
+            let is_up = position_m.z > UP_M;
+            self.places_m.push(is_up.then(|| self.start.in_world(position_m.xy())));
+        }
+        let told = ticked.then(|| self.driver.vehicle.as_neighbour(now)).flatten();
+        self.driver.pass();
+        told
+    }
+}
+
+/// Flies the plans of a fleet; many times faster than real time.
+///
+/// # Errors
+/// [`CannotFly`] if a plan or the limits are refused.
+pub fn fly(fleet: &Fleet) -> Result<SimulatedFleet, CannotFly> {
+    let members = fleet.members.iter().enumerate();
+    let begun = members.filter_map(|(number, member)| Flying::begin(number, member).transpose());
+    let flying = fly_together(begun.collect::<Result<_, _>>()?);
+    let mut meetings = Vec::new();
+    for (number, one) in flying.iter().enumerate() {
+        meetings.extend(flying.iter().skip(number + 1).filter_map(|other| meeting([one, other])));
+    }
+    Ok(SimulatedFleet { members: flying.into_iter().map(simulated).collect(), meetings })
+}
+
+/// Flies all until each has ended. Who has no plan stays where it stands, and is not heard.
+fn fly_together(mut flying: Vec<Flying>) -> Vec<Flying> {
+    let mut now = Duration::ZERO;
+    while now < LONGEST && flying.iter().any(|one| one.outcome.is_none()) {
+        let told: Vec<Neighbour> = flying.iter_mut().filter_map(|one| one.step(now)).collect();
+        for one in &mut flying {
+            for neighbour in told.iter().filter(|told| told.system != one.system) {
+                // What is not believed is avoided as one that is not heard.
+                _ = one.driver.handle(Input::Neighbour(*neighbour), |_, _| {});
+            }
+        }
+        now += POLL;
+    }
+    flying
+}
+
+fn simulated(flying: Flying) -> SimulatedMember {
+    let Flying { number, alone, outcome, places_m, .. } = flying;
+    let track_m: Vec<_> = places_m.into_iter().flatten().collect();
+    let duration = TRACK * u32::try_from(track_m.len()).unwrap_or(u32::MAX);
+    SimulatedMember { number, alone, outcome, duration, track_m }
+}
+
+/// `None` of two that would never be in the air at the same time.
+fn meeting(flying: [&Flying; 2]) -> Option<Meeting> {
+    let place_m = |(_, pose): &(Duration, Pose)| Vector2::new(pose.x_m, pose.y_m);
+    let [a, b] = flying.map(|one| one.alone.track.iter());
+    let apart = a.zip(b).map(|(a, b)| ((place_m(a) - place_m(b)).norm(), a.0));
+    let (alone_m, at) = apart.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let [a, b] = flying.map(|one| one.places_m.iter());
+    let both = a.zip(b).filter_map(|(a, b)| Some(((*a)? - (*b)?).norm()));
+    let together_m = both.fold(f64::INFINITY, f64::min);
+    Some(Meeting { who: flying.map(|one| one.number), alone_m, at, together_m })
+}

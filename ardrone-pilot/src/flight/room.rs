@@ -1,0 +1,129 @@
+//! The vehicles of one program in one room: each leaves where it was last, and takes what the others have left.
+//!
+//! Ticks never wait for each other: a place that another one is just writing or reading is passed over until the next tick.
+
+use std::sync::{Arc, Mutex, TryLockError};
+use std::time::{Duration, Instant};
+
+use autopilot::separation::Neighbour;
+
+/// What one vehicle has told.
+#[derive(Debug, Clone, Copy)]
+struct Told {
+    /// When it was there.
+    at: Instant,
+    neighbour: Neighbour,
+    /// Its program has ended with the drone on the ground: it stands there.
+    is_parked: bool,
+}
+
+/// A vehicle's place in a room.
+#[derive(Debug)]
+pub struct Seat {
+    room: Arc<[Mutex<Option<Told>>]>,
+    own: usize,
+    /// When each was where it was last heard to be.
+    heard: Vec<Option<Instant>>,
+}
+
+impl Seat {
+    /// One for each vehicle of a room.
+    pub fn in_one_room(count: usize) -> impl Iterator<Item = Self> {
+        let room: Arc<[_]> = (0..count).map(|_| Mutex::default()).collect();
+        (0..count).map(move |own| Self { room: Arc::clone(&room), own, heard: vec![None; count] })
+    }
+
+    /// Tells the others; times count from `start`.
+    pub(super) fn tell(&self, start: Instant, neighbour: Neighbour) {
+        let told = Told { at: start + neighbour.at, neighbour, is_parked: false };
+        self.write(|own| *own = Some(told));
+    }
+
+    /// The vehicle leaves the room with its drone on the ground.
+    pub(super) fn park(&self) {
+        self.write(|own| {
+            if let Some(told) = own {
+                (told.is_parked, told.neighbour.airborne) = (true, false);
+            }
+        });
+    }
+
+    fn write(&self, change: impl FnOnce(&mut Option<Told>)) {
+        if let Some(mut own) = self.room.get(self.own).and_then(unlocked) {
+            change(&mut own);
+        }
+    }
+
+    /// What the others have told since the last time; times count from `start`. `now` is the time of those that stand where they
+    /// were left.
+    pub(super) fn hear(
+        &mut self,
+        start: Instant,
+        now: Duration,
+    ) -> impl Iterator<Item = Neighbour> + '_ {
+        let own = self.own;
+        let others = self.room.iter().zip(&mut self.heard).enumerate();
+        others.filter(move |(number, _)| *number != own).filter_map(move |(_, (place, heard))| {
+            let Told { at, neighbour, is_parked } = (*unlocked(place)?)?;
+            if is_parked {
+                return Some(Neighbour { at: now, ..neighbour });
+            }
+            let is_new = heard.replace(at) != Some(at);
+            is_new.then(|| Neighbour { at: at.saturating_duration_since(start), ..neighbour })
+        })
+    }
+}
+
+/// Nothing if it is in use just now. Nobody panics while it is locked.
+fn unlocked<T>(place: &Mutex<T>) -> Option<std::sync::MutexGuard<'_, T>> {
+    match place.try_lock() {
+        Ok(guard) => Some(guard),
+        Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
+    }
+}
+
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector2;
+
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    fn at(system: u8, ms: u32, airborne: bool) -> Neighbour {
+        let (place_m, velocity_m_s) = (Vector2::new(1.0, 2.0), Vector2::new(0.5, 0.0));
+        Neighbour { system, at: ms * MS, place_m, velocity_m_s, deviation_m: 0.1, airborne }
+    }
+
+    #[test]
+    fn each_hears_the_others_once_by_its_own_clock() {
+        let mut seats: Vec<Seat> = Seat::in_one_room(3).collect();
+        let [first, later] = [Instant::now(), Instant::now() + 500 * MS];
+        seats[0].tell(first, at(1, 700, true));
+        seats[1].tell(later, at(2, 300, true));
+        let heard = seats[2].hear(first, 900 * MS).collect::<Vec<_>>();
+        assert_eq!(heard[0], at(1, 700, true));
+        let late = heard[1].at - 800 * MS;
+        assert!(late < 100 * MS && heard[1].system == 2, "{heard:?}");
+        assert_eq!(seats[2].hear(first, 900 * MS).count(), 0, "nothing is new");
+        // What was told before the hearer began was then.
+        assert_eq!(seats[1].hear(later + 700 * MS, 900 * MS).next(), Some(at(1, 0, true)));
+        seats[0].tell(first, at(1, 730, true));
+        assert_eq!(seats[2].hear(first, 900 * MS).count(), 1);
+    }
+
+    #[test]
+    fn who_has_left_its_drone_on_the_ground_is_still_heard() {
+        let mut seats: Vec<Seat> = Seat::in_one_room(2).collect();
+        let start = Instant::now();
+        seats[0].park();
+        assert_eq!(seats[1].hear(start, MS).count(), 0, "it was never there");
+        seats[0].tell(start, at(1, 10, true));
+        seats[0].park();
+        for ms in [500, 600] {
+            assert_eq!(seats[1].hear(start, ms * MS).next(), Some(at(1, ms, false)));
+        }
+    }
+}
