@@ -24,15 +24,9 @@ pub(crate) fn svg(
         .map_err(|error| PlanDrawingError(error.to_string()))
 }
 
-fn from_above(
-    area: &Drawing<'_>,
-    name: &str,
-    fleet: &Fleet,
-    simulated: &SimulatedFleet,
-) -> Drawn {
-    let start_m = |number: usize| {
-        fleet.members[number].config.estimator.start.unwrap_or_default().place_m
-    };
+fn from_above(area: &Drawing<'_>, name: &str, fleet: &Fleet, simulated: &SimulatedFleet) -> Drawn {
+    let start_m =
+        |number: usize| fleet.members[number].config.estimator.start.unwrap_or_default().place_m;
     let starts_m = (0..fleet.members.len()).map(start_m);
     let tracks_m = simulated.members.iter().flat_map(|member| member.track_m.iter().copied());
     let places_m: Vec<Vector2<f64>> = starts_m.chain(tracks_m).collect();
@@ -77,6 +71,7 @@ fn from_above(
     }
     chart
         .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
         .label_font((FONT, 14))
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.2))

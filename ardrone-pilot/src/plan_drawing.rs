@@ -47,8 +47,12 @@ pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, Pla
 }
 
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
-    let mut places =
-        vec![Place { pose: limits.start.unwrap_or_default(), arrival_s: 0.0, departure_s: 0.0, target: None }];
+    let mut places = vec![Place {
+        pose: limits.start.unwrap_or_default(),
+        arrival_s: 0.0,
+        departure_s: 0.0,
+        target: None,
+    }];
     let mut now_s = 0.0;
     for (step, expected) in plan.expectations(limits).into_iter().enumerate() {
         let time_s = expected.time.as_secs_f64();

@@ -98,7 +98,7 @@ pub fn fly(
 }
 
 /// As the vehicle perceived it: a recorded flight begins and ends by the same sign.
-fn is_in_the_air(decision: &Decision) -> bool {
+pub(crate) fn is_in_the_air(decision: &Decision) -> bool {
     matches!(decision.phase, Phase::Flying | Phase::Landing) && !decision.percepts.on_ground
 }
 

@@ -241,7 +241,9 @@ fn a_log_that_may_not_grow_ends_the_log_and_not_the_flight() {
 fn a_flight_that_is_dropped_lands() {
     let relay = Relay::start(&WorldConfig::default());
     let (runtime, config) = (crate::udp::runtime(), VehicleConfig::default());
-    let flight = Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), Beside::default()).unwrap();
+    let flight =
+        Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), Beside::default())
+            .unwrap();
     flying(&relay);
     drop(flight);
     assert_eq!(relay.truth().phase, Phase::Landed);

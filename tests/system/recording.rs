@@ -113,8 +113,14 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
     let (recorder, recording) = Recorder::start(&path, &header(PLAN)).unwrap();
     let config = VehicleConfig::default();
     let runtime = crate::udp::runtime();
-    let flight =
-        Flight::start(&runtime, Some(plan(PLAN)), &config, &address, Beside { recorder: Some(recorder), seat: None }).unwrap();
+    let flight = Flight::start(
+        &runtime,
+        Some(plan(PLAN)),
+        &config,
+        &address,
+        Beside { recorder: Some(recorder), seat: None },
+    )
+    .unwrap();
     assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);
     recording.finish().unwrap();
     let flown = std::fs::read(path).unwrap();

@@ -91,7 +91,14 @@ fn over_udp_two_fly_at_once_into_one_folder() {
         };
         let (recorder, recording) = Recorder::start(&path, &header).unwrap();
         let flown = Some(plan(text));
-        let flight = Flight::start(&runtime, flown, &config, &address, Beside { recorder: Some(recorder), seat: None }).unwrap();
+        let flight = Flight::start(
+            &runtime,
+            flown,
+            &config,
+            &address,
+            Beside { recorder: Some(recorder), seat: None },
+        )
+        .unwrap();
         (config.name, flight, recording, mock)
     });
     // Each has its own targets, its drone is where it thinks, and each message says whose it is.

@@ -36,7 +36,8 @@ fn a_flight_over_udp_is_the_simulated_one() {
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
     let (runtime, config) = (runtime(), VehicleConfig::default());
     let flight =
-        Flight::start(&runtime, Some(plan(SQUARE)), &config, &address(&mock), Beside::default()).unwrap();
+        Flight::start(&runtime, Some(plan(SQUARE)), &config, &address(&mock), Beside::default())
+            .unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
         if let Content::Telemetry(_, Telemetry::Waypoint(waypoint), _) = message.content {
@@ -64,7 +65,8 @@ fn ends(scenario: &str) -> (Outcome, Truth) {
     let mock = MockDrone::start(&world, Ports::LOOPBACK).unwrap();
     let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
     let (runtime, config) = (runtime(), VehicleConfig::default());
-    let flight = Flight::start(&runtime, Some(flown), &config, &address(&mock), Beside::default()).unwrap();
+    let flight =
+        Flight::start(&runtime, Some(flown), &config, &address(&mock), Beside::default()).unwrap();
     let outcome = flight.finish().unwrap().outcome;
     (outcome, mock.truth())
 }

@@ -10,11 +10,11 @@ use std::time::{Duration, SystemTime};
 
 use axum::body::{Body, to_bytes};
 use axum::extract::{Path, State};
-use axum::http::StatusCode;
 use axum::http::header::{
     CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderMap,
     IF_NONE_MATCH,
 };
+use axum::http::{StatusCode, Uri};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Extension, Router};
@@ -52,11 +52,12 @@ const REPORT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; \
 /// Where the files are, and by what plans are checked.
 #[derive(Debug)]
 pub(super) struct Files {
-    planning: Planning,
+    /// Of each vehicle.
+    plannings: Vec<Planning>,
     plans: Folder,
     flights: Folder,
-    /// The recording that is being written.
-    current: Option<PathBuf>,
+    /// The recordings that are being written.
+    current: Vec<PathBuf>,
     settings: SettingsFile,
     /// Checks of plans, and lists.
     quick: Semaphore,
@@ -73,6 +74,8 @@ enum Failure {
     Folder(#[from] FolderError),
     #[error("a plan is text of at most {PLAN_BYTES} bytes")]
     NoPlan,
+    #[error("there is no such vehicle")]
+    NoVehicle,
     #[error("the plan took too long to arrive")]
     Slow,
     #[error("{0}: {1}")]
@@ -95,7 +98,9 @@ impl IntoResponse for Failure {
     fn into_response(self) -> Response {
         let status = match &self {
             Self::Folder(FolderError::Name(..)) | Self::NoPlan => StatusCode::BAD_REQUEST,
-            Self::Folder(FolderError::Missing(_)) | Self::NoFlight(..) => StatusCode::NOT_FOUND,
+            Self::Folder(FolderError::Missing(_)) | Self::NoFlight(..) | Self::NoVehicle => {
+                StatusCode::NOT_FOUND
+            }
             Self::Folder(FolderError::Exists(_)) => StatusCode::PRECONDITION_FAILED,
             Self::Folder(FolderError::TooLarge(..)) => StatusCode::PAYLOAD_TOO_LARGE,
             Self::Slow => StatusCode::REQUEST_TIMEOUT,
@@ -127,14 +132,14 @@ impl IntoResponse for Json {
 
 impl Files {
     pub(super) fn new(
-        planning: Planning,
+        plannings: Vec<Planning>,
         plans: PathBuf,
         flights: PathBuf,
-        current: Option<PathBuf>,
+        current: Vec<PathBuf>,
         settings: SettingsFile,
     ) -> Self {
         Self {
-            planning,
+            plannings,
             settings,
             plans: Folder::new(plans, ".txt"),
             flights: Folder::new(flights, ".mcap"),
@@ -145,8 +150,12 @@ impl Files {
         }
     }
 
-    pub(super) fn planning(&self) -> &Planning {
-        &self.planning
+    /// Of the vehicle with this name; of the first one if none is asked for.
+    fn planning(&self, name: Option<&str>) -> Option<&Planning> {
+        match name {
+            Some(name) => self.plannings.iter().find(|it| it.config.name.as_str() == name),
+            None => self.plannings.first(),
+        }
     }
 
     /// The requests.
@@ -184,7 +193,7 @@ impl Files {
     }
 
     fn is_current(&self, name: &str) -> bool {
-        self.current.as_deref().is_some_and(|current| self.flights.is(name, current))
+        self.current.iter().any(|current| self.flights.is(name, current))
     }
 
     /// What was decided in a recording.
@@ -268,14 +277,22 @@ async fn text(body: Body) -> Result<String, Failure> {
     String::from_utf8(body.into()).map_err(|_| Failure::NoPlan)
 }
 
-async fn check(State(files): Shared, body: Body) -> Result<Json, Failure> {
-    let text = text(body).await?;
-    files.quickly(move |files| files.planning.check(&text)).await.map(Json)
+/// The vehicle that a request asks for by `vehicle=NAME`.
+pub(super) fn vehicle_of(uri: &Uri) -> Option<&str> {
+    let mut parameters = uri.query().unwrap_or_default().split('&');
+    parameters.find_map(|parameter| parameter.strip_prefix("vehicle="))
 }
 
-async fn simulate(State(files): Shared, body: Body) -> Result<Json, Failure> {
+async fn check(State(files): Shared, uri: Uri, body: Body) -> Result<Json, Failure> {
     let text = text(body).await?;
-    files.slowly(move |files| files.planning.simulate(&text)).await.map(Json)
+    let plans = move |files: &Files| Some(files.planning(vehicle_of(&uri))?.check(&text));
+    files.quickly(plans).await?.map(Json).ok_or(Failure::NoVehicle)
+}
+
+async fn simulate(State(files): Shared, uri: Uri, body: Body) -> Result<Json, Failure> {
+    let text = text(body).await?;
+    let plans = move |files: &Files| Some(files.planning(vehicle_of(&uri))?.simulate(&text));
+    files.slowly(plans).await?.map(Json).ok_or(Failure::NoVehicle)
 }
 
 async fn show_settings(State(files): Shared) -> Result<Json, Failure> {

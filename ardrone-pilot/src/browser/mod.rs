@@ -22,11 +22,12 @@ use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
 
 use autopilot::plan::Plan;
+use autopilot::vehicle::VehicleName;
 
 use self::access::Access;
 use self::files::Files;
 pub use self::planning::Planning;
-use self::server::Server;
+use self::server::{Server, Vehicle};
 pub use self::settings_file::SettingsFile;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
@@ -49,19 +50,30 @@ pub enum BrowserError {
     Token(String),
 }
 
-/// What the page offers besides the flight.
+/// A vehicle that the page shows.
+#[derive(Debug)]
+pub struct Shown {
+    /// What it is to fly.
+    pub plan: Option<Plan>,
+    /// Its drone, for people.
+    pub drone: String,
+    /// By what its plans are checked and simulated.
+    pub planning: Planning,
+    /// Where its orders go.
+    pub controls: Controls,
+    /// What its camera sees.
+    pub video: Option<VideoFeed>,
+}
+
+/// What the page offers besides the flights.
 #[derive(Debug, Clone)]
 pub struct PageConfig {
-    /// The drone that is flown, for people.
-    pub drone: String,
-    /// By what plans are checked and simulated.
-    pub planning: Planning,
     /// Folder of the plans.
     pub plans: PathBuf,
     /// Folder of the recordings.
     pub flights: PathBuf,
-    /// The recording of this run, which cannot be deleted.
-    pub recording: Option<PathBuf>,
+    /// The recordings of this run, which cannot be deleted.
+    pub recordings: Vec<PathBuf>,
     /// The settings, which apply from the next start on.
     pub settings: SettingsFile,
 }
@@ -91,20 +103,18 @@ impl Listener {
         self.access.url()
     }
 
-    /// Starts serving the page.
-    pub fn open(
-        self,
-        runtime: &Runtime,
-        plan: Option<&Plan>,
-        page: PageConfig,
-        controls: Controls,
-        video: Option<VideoFeed>,
-    ) -> Browser {
-        let PageConfig { drone, planning, plans, flights, recording, settings } = page;
-        let snapshot = Snapshot::new(plan, &planning.config, &drone);
-        let files = Files::new(planning, plans, flights, recording, settings);
-        let server =
-            Server::start(runtime, self.listener, self.access, snapshot, files, controls, video);
+    /// Starts serving the page about these vehicles, of which a browser shows one, the first unless it asks for another.
+    pub fn open(self, runtime: &Runtime, page: PageConfig, vehicles: Vec<Shown>) -> Browser {
+        let PageConfig { plans, flights, recordings, settings } = page;
+        let names: Vec<_> = vehicles.iter().map(|shown| shown.planning.config.name).collect();
+        let plannings = vehicles.iter().map(|shown| shown.planning.clone()).collect();
+        let files = Files::new(plannings, plans, flights, recordings, settings);
+        let seen = vehicles.into_iter().map(|Shown { plan, drone, planning, controls, video }| {
+            let snapshot = Snapshot::new(plan.as_ref(), &planning.config, &drone, &names);
+            Vehicle::new(snapshot, planning, controls, video)
+        });
+        let vehicles = seen.collect();
+        let server = Server::start(runtime, self.listener, self.access, files, vehicles);
         Browser { server }
     }
 }
@@ -116,14 +126,14 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// Publishes a message of the flight; never blocks.
+    /// Publishes a message of a flight; never blocks.
     pub fn show(&self, message: &Message) {
-        self.server.publish(|snapshot| snapshot.take_in(message));
+        self.server.publish(message.vehicle, |snapshot| snapshot.take_in(message));
     }
 
-    /// Publishes the end of the flight.
-    pub fn end(&self, end: &serde_json::Value) {
-        self.server.publish(|snapshot| {
+    /// Publishes the end of a vehicle's flight.
+    pub fn end(&self, vehicle: VehicleName, end: &serde_json::Value) {
+        self.server.publish(vehicle, |snapshot| {
             snapshot.end(end.clone());
             end.clone()
         });

@@ -21,12 +21,25 @@ const FLOOD: u32 = 500;
 
 /// A request of the page: an order as any program sends it, or one of these.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
+#[serde(tag = "order", rename_all = "snake_case", deny_unknown_fields)]
 enum Own {
     /// A line as in the terminal.
     Typed { line: String },
     /// Announces a cut, which must be confirmed.
     Arm,
+    /// Lands all vehicles of the page.
+    LandAll,
+}
+
+/// What is to be done.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Requested {
+    /// An order to the vehicle that the page shows.
+    Order(OperatorOrder),
+    /// Nothing yet: a cut was announced.
+    Armed,
+    /// To land all vehicles.
+    LandAll,
 }
 
 /// A request that is understood.
@@ -64,7 +77,7 @@ pub(super) struct Requests {
 }
 
 impl Requests {
-    /// The order of a request received at `now`; `None` if it only announces a cut.
+    /// What a request asks for that was received at `now`.
     ///
     /// # Errors
     /// [`RequestError`] if there is nothing to carry out.
@@ -73,7 +86,7 @@ impl Requests {
         now: Duration,
         text: &str,
         planning: &Planning,
-    ) -> Result<Option<OperatorOrder>, RequestError> {
+    ) -> Result<Requested, RequestError> {
         let request = request(text, planning).map_err(|error| match error {
             ReadError::Plan(error) => RequestError::Wrong(error.to_string()),
             error => {
@@ -85,7 +98,7 @@ impl Requests {
         self.recent = (self.recent - PER_S * since.as_secs_f64()).max(0.0) + 1.0;
         // However fast orders come, those that stop the drone are taken.
         let stops = match &request {
-            Request::Own(own) => *own == Own::Arm,
+            Request::Own(own) => matches!(own, Own::Arm | Own::LandAll),
             Request::Order(order) => order.is_for_anyone(),
         };
         if self.recent > PER_S && !stops {
@@ -101,10 +114,11 @@ impl Requests {
         let is_armed = armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN);
         match request {
             Request::Order(OperatorOrder::Cut) if !is_armed => Err(RequestError::NotArmed),
-            Request::Order(order) => Ok(Some(order)),
+            Request::Order(order) => Ok(Requested::Order(order)),
+            Request::Own(Own::LandAll) => Ok(Requested::LandAll),
             Request::Own(Own::Arm) => {
                 self.armed = Some(now);
-                Ok(None)
+                Ok(Requested::Armed)
             }
             Request::Own(Own::Typed { line }) => {
                 let order = typed::parse_remote(&line, &planning.config.limits);
@@ -112,9 +126,9 @@ impl Requests {
                     // As the button, twice.
                     OperatorOrder::Cut if !is_armed => {
                         self.armed = Some(now);
-                        Ok(None)
+                        Ok(Requested::Armed)
                     }
-                    order => Ok(Some(order)),
+                    order => Ok(Requested::Order(order)),
                 }
             }
         }
@@ -135,7 +149,7 @@ fn request(text: &str, planning: &Planning) -> Result<Request, ReadError> {
     let mut object: Value = serde_json::from_str(text)?;
     ordered::take_vehicle(&mut object, planning.config.name)?;
     match object.get("order").and_then(Value::as_str) {
-        Some("typed" | "arm") => Ok(Request::Own(serde_json::from_value(object)?)),
+        Some("typed" | "arm" | "land_all") => Ok(Request::Own(serde_json::from_value(object)?)),
         _ => ordered::read(&object, &planning.config.limits, planning.tags()).map(Request::Order),
     }
 }
@@ -158,18 +172,18 @@ mod tests {
     #[test]
     fn requests_are_orders() {
         let order = |text| Requests::default().order(Duration::ZERO, text, &planning());
-        assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
-        assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
-        assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
+        assert_eq!(order(r#"{"order":"hold"}"#), Ok(Requested::Order(OperatorOrder::Hold)));
+        assert_eq!(order(r#"{"order":"resume"}"#), Ok(Requested::Order(OperatorOrder::Resume)));
+        assert_eq!(order(r#"{"order":"land"}"#), Ok(Requested::Order(OperatorOrder::Land)));
         let named = order(r#"{"order":"land","vehicle":"ardrone"}"#);
-        assert_eq!(named, Ok(Some(OperatorOrder::Land)));
-        let bottom = Ok(Some(OperatorOrder::Camera { camera: Camera::Bottom }));
+        assert_eq!(named, Ok(Requested::Order(OperatorOrder::Land)));
+        let bottom = Ok(Requested::Order(OperatorOrder::Camera { camera: Camera::Bottom }));
         assert_eq!(order(r#"{"order":"camera","camera":"bottom"}"#), bottom);
         let steer = OperatorOrder::Steer(Sticks { pitch: -0.5, ..Sticks::default() });
         let text = r#"{"order":"steer","roll":0,"pitch":-0.5,"gaz":0,"yaw":0}"#;
-        assert_eq!(order(text), Ok(Some(steer)));
+        assert_eq!(order(text), Ok(Requested::Order(steer)));
         let go_to = OperatorOrder::GoTo(Place::at(1.5, -2.0));
-        assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
+        assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Requested::Order(go_to)));
         for text in [
             "",
             "land",
@@ -190,9 +204,11 @@ mod tests {
     fn plans_and_typed_lines_are_orders() {
         let order = |text| Requests::default().order(Duration::ZERO, text, &planning());
         let load = order(r#"{"order":"load","name":"p","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
-        assert!(matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3));
+        assert!(
+            matches!(load, Ok(Requested::Order(OperatorOrder::Load(plan))) if plan.steps().len() == 3)
+        );
         let append = order(r#"{"order":"typed","line":"goto 1 0 0 0"}"#);
-        assert!(matches!(append, Ok(Some(OperatorOrder::Append(_)))));
+        assert!(matches!(append, Ok(Requested::Order(OperatorOrder::Append(_)))));
         for text in [
             r#"{"order":"load","name":"p","plan":"takeoff\ngoto 99 0 0 0"}"#,
             r#"{"order":"typed","line":"gotoo 1 0 0 0"}"#,
@@ -211,18 +227,18 @@ mod tests {
         let mut requests = Requests::default();
         let mut order = |tenths, text| requests.order(SECOND / 10 * tenths, text, &planning());
         assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
-        assert_eq!(order(10, ARM), Ok(None));
-        assert_eq!(order(39, CUT), Ok(Some(OperatorOrder::Cut)));
+        assert_eq!(order(10, ARM), Ok(Requested::Armed));
+        assert_eq!(order(39, CUT), Ok(Requested::Order(OperatorOrder::Cut)));
         // Confirmed twice; too late; another order in between.
         assert_eq!(order(40, CUT), Err(RequestError::NotArmed));
-        assert_eq!(order(50, ARM), Ok(None));
+        assert_eq!(order(50, ARM), Ok(Requested::Armed));
         assert_eq!(order(81, CUT), Err(RequestError::NotArmed));
-        assert_eq!(order(90, ARM), Ok(None));
-        assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
+        assert_eq!(order(90, ARM), Ok(Requested::Armed));
+        assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Requested::Order(OperatorOrder::Hold)));
         assert_eq!(order(92, CUT), Err(RequestError::NotArmed));
         // Typed, it is no faster.
-        assert_eq!(order(100, TYPED), Ok(None));
-        assert_eq!(order(101, TYPED), Ok(Some(OperatorOrder::Cut)));
+        assert_eq!(order(100, TYPED), Ok(Requested::Armed));
+        assert_eq!(order(101, TYPED), Ok(Requested::Order(OperatorOrder::Cut)));
     }
 
     /// A page that flies by hand repeats its sticks at any moment between two presses.
@@ -234,11 +250,11 @@ mod tests {
         for ms in (0..1000).step_by(25) {
             assert!(order(ms, STEER).is_ok(), "{ms}");
         }
-        assert_eq!(order(1000, r#"{"order":"arm"}"#), Ok(None));
+        assert_eq!(order(1000, r#"{"order":"arm"}"#), Ok(Requested::Armed));
         for ms in (1000..2000).step_by(100) {
             assert!(order(ms, STEER).is_ok());
         }
-        assert_eq!(order(2000, r#"{"order":"cut"}"#), Ok(Some(OperatorOrder::Cut)));
+        assert_eq!(order(2000, r#"{"order":"cut"}"#), Ok(Requested::Order(OperatorOrder::Cut)));
     }
 
     #[test]
@@ -254,14 +270,14 @@ mod tests {
             Err(RequestError::TooFast)
         );
         // However fast they come, a landing is taken, and a cut.
-        assert_eq!(requests.order(soon, r#"{"order":"arm"}"#, &planning), Ok(None));
+        assert_eq!(requests.order(soon, r#"{"order":"arm"}"#, &planning), Ok(Requested::Armed));
         assert_eq!(
             requests.order(soon, r#"{"order":"cut"}"#, &planning),
-            Ok(Some(OperatorOrder::Cut))
+            Ok(Requested::Order(OperatorOrder::Cut))
         );
         assert_eq!(
             requests.order(soon, r#"{"order":"land"}"#, &planning),
-            Ok(Some(OperatorOrder::Land))
+            Ok(Requested::Order(OperatorOrder::Land))
         );
         assert!(!requests.is_garbage());
         for count in 0..=FORGIVEN {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use autopilot::vehicle::{Operator, OperatorOrder, Station};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station, VehicleName};
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::extract::{Request, State};
 use axum::http::header::{
@@ -32,9 +32,10 @@ use tokio::time::{Instant, sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 
 use super::access::{Access, Claims, Local, Refusal};
-use super::files::{Files, PLAN_BYTES};
+use super::files::{Files, PLAN_BYTES, vehicle_of};
 use super::pictures;
-use super::requests::Requests;
+use super::planning::Planning;
+use super::requests::{Requested, Requests};
 use super::snapshot::Snapshot;
 use crate::flight::Controls;
 use crate::runtime::{Runtime, Task};
@@ -85,7 +86,7 @@ macro_rules! script {
 }
 
 /// The page itself comes first.
-const ASSETS: [Asset; 13] = [
+const ASSETS: [Asset; 14] = [
     Asset { path: "/", kind: "text/html; charset=utf-8", text: include_str!("page/index.html") },
     Asset {
         path: "/page.css",
@@ -93,6 +94,7 @@ const ASSETS: [Asset; 13] = [
         text: include_str!("page/page.css"),
     },
     script!("page.js"),
+    script!("fleet.js"),
     script!("history.js"),
     script!("heights.js"),
     script!("dangers.js"),
@@ -120,20 +122,16 @@ impl Server {
         runtime: &Runtime,
         listener: TcpListener,
         access: Access,
-        snapshot: Snapshot,
         files: Files,
-        controls: Controls,
-        video: Option<VideoFeed>,
+        vehicles: Vec<Vehicle>,
     ) -> Self {
         let shared = Arc::new(Shared {
             access,
             files: Arc::new(files),
-            controls,
-            stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
+            vehicles,
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
             long_requests: Semaphore::new(1),
             pages: AtomicU16::new(0),
-            video,
             watchers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
         let served = Arc::clone(&shared);
@@ -141,13 +139,21 @@ impl Server {
         Self { shared, task }
     }
 
-    /// Updates the snapshot and sends the change to all viewers.
-    pub(super) fn publish(&self, change: impl FnOnce(&mut Snapshot) -> Value) {
-        let mut stage = self.shared.stage();
-        let object = change(&mut stage.snapshot);
-        if let Some(sender) = &stage.sender {
-            // Without viewers there is no receiver.
-            _ = sender.send(ws::Utf8Bytes::from(object.to_string()));
+    /// Updates the snapshot of a vehicle and sends the change to all its viewers, and what others see of it to those of the
+    /// others.
+    pub(super) fn publish(&self, name: VehicleName, change: impl FnOnce(&mut Snapshot) -> Value) {
+        let Some(vehicle) = self.shared.named(Some(name.as_str())) else { return };
+        let seen = {
+            let mut stage = vehicle.stage();
+            let object = change(&mut stage.snapshot);
+            stage.send(&object);
+            stage.snapshot.as_other(&object)
+        };
+        let Some(seen) = seen else { return };
+        for other in self.shared.vehicles.iter().filter(|other| other.name() != name) {
+            let mut stage = other.stage();
+            stage.snapshot.take_in_other(name, &seen);
+            stage.send(&seen);
         }
     }
 }
@@ -155,7 +161,9 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         // Dropping the sender ends the viewers' streams after the last message.
-        self.shared.stage().sender = None;
+        for vehicle in &self.shared.vehicles {
+            vehicle.stage().sender = None;
+        }
         self.task.end();
     }
 }
@@ -165,15 +173,22 @@ impl Drop for Server {
 struct Shared {
     access: Access,
     files: Arc<Files>,
-    controls: Controls,
-    stage: Mutex<Stage>,
+    vehicles: Vec<Vehicle>,
     viewers: Arc<Semaphore>,
     long_requests: Semaphore,
     /// Pages so far, each of which is an operator.
     pages: AtomicU16,
-    video: Option<VideoFeed>,
     /// Places for those who see the video.
     watchers: Arc<Semaphore>,
+}
+
+/// A vehicle of the page.
+#[derive(Debug)]
+pub(super) struct Vehicle {
+    planning: Planning,
+    controls: Controls,
+    stage: Mutex<Stage>,
+    video: Option<VideoFeed>,
 }
 
 /// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
@@ -184,7 +199,48 @@ struct Stage {
     sender: Option<broadcast::Sender<ws::Utf8Bytes>>,
 }
 
+impl Stage {
+    fn send(&self, object: &Value) {
+        if let Some(sender) = &self.sender {
+            // Without viewers there is no receiver.
+            _ = sender.send(ws::Utf8Bytes::from(object.to_string()));
+        }
+    }
+}
+
 impl Shared {
+    /// The vehicle with this name; the first one if none is asked for.
+    fn named(&self, name: Option<&str>) -> Option<&Vehicle> {
+        match name {
+            Some(name) => self.vehicles.iter().find(|vehicle| vehicle.name().as_str() == name),
+            None => self.vehicles.first(),
+        }
+    }
+
+    /// Lands all; returns the vehicle's answer if none hears it.
+    fn land_all(&self, by: Operator) -> Result<(), Refused> {
+        let land = |vehicle: &Vehicle| vehicle.controls.order(by, OperatorOrder::Land);
+        let answers: Vec<_> = self.vehicles.iter().map(land).collect();
+        let is_heard = answers.iter().any(Result::is_ok);
+        answers.into_iter().find(|answer| answer.is_ok() == is_heard).unwrap_or(Ok(()))
+    }
+}
+
+impl Vehicle {
+    pub(super) fn new(
+        snapshot: Snapshot,
+        planning: Planning,
+        controls: Controls,
+        video: Option<VideoFeed>,
+    ) -> Self {
+        let stage = Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) };
+        Self { planning, controls, stage: Mutex::new(stage), video }
+    }
+
+    fn name(&self) -> VehicleName {
+        self.planning.config.name
+    }
+
     fn stage(&self) -> std::sync::MutexGuard<'_, Stage> {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -300,8 +356,13 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
 async fn live(
     State(shared): State<Arc<Shared>>,
     Extension(Local(local)): Extension<Local>,
+    uri: Uri,
     upgrade: WebSocketUpgrade,
 ) -> Response {
+    let name = vehicle_of(&uri).map(str::to_owned);
+    if shared.named(name.as_deref()).is_none() {
+        return no_vehicle();
+    }
     let Ok(place) = Arc::clone(&shared.viewers).try_acquire_owned() else {
         let full = "too many pages watch this flight: close one\n";
         return (StatusCode::SERVICE_UNAVAILABLE, full).into_response();
@@ -313,14 +374,16 @@ async fn live(
         .max_frame_size(REQUEST_BYTES)
         .max_write_buffer_size(WRITE_BYTES)
         .on_upgrade(move |socket| async move {
+            // It was there, and none is taken away.
+            let Some(vehicle) = shared.named(name.as_deref()) else { return };
             let (sink, stream) = socket.split();
             let (answers, answered) = mpsc::channel(BEHIND);
             reply(&answers, &json!({ "type": "you", "name": by.to_string(), "local": by.local }));
             // Orders are received even while writing is blocked.
-            let mut written = pin!(write(sink, &shared, answered));
+            let mut written = pin!(write(sink, vehicle, answered));
             let garbage = tokio::select! {
                 () = &mut written => None,
-                garbage = read(stream, &shared, answers, by) => garbage,
+                garbage = read(stream, &shared, vehicle, answers, by) => garbage,
             };
             // Each request is answered before the end. What arrives meanwhile is thrown away: what is left unread would
             // reset the connection, and the answers with it.
@@ -337,14 +400,19 @@ async fn live(
             }
             // A page that is gone must not keep the controls. If the queue is full, a local operator can
             // still take them.
-            _ = shared.controls.order(by, OperatorOrder::Release);
+            _ = vehicle.controls.order(by, OperatorOrder::Release);
             drop(place);
         })
 }
 
+fn no_vehicle() -> Response {
+    (StatusCode::NOT_FOUND, "there is no such vehicle\n").into_response()
+}
+
 /// Opens the WebSocket that carries the pictures of the drone's camera.
-async fn video(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
-    let Some(feed) = shared.video.clone() else {
+async fn video(State(shared): State<Arc<Shared>>, uri: Uri, upgrade: WebSocketUpgrade) -> Response {
+    let Some(vehicle) = shared.named(vehicle_of(&uri)) else { return no_vehicle() };
+    let Some(feed) = vehicle.video.clone() else {
         return (StatusCode::NOT_FOUND, "there is no video\n").into_response();
     };
     let Ok(place) = Arc::clone(&shared.watchers).try_acquire_owned() else {
@@ -362,10 +430,10 @@ async fn video(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> 
 /// Sends the snapshot, then changes, until the flight has ended or the page is gone.
 async fn write(
     mut sink: SplitSink<WebSocket, ws::Message>,
-    shared: &Shared,
+    vehicle: &Vehicle,
     mut answers: mpsc::Receiver<ws::Utf8Bytes>,
 ) {
-    let (mut text, mut receiver) = shared.join();
+    let (mut text, mut receiver) = vehicle.join();
     loop {
         match timeout(WRITE_TIME, sink.send(ws::Message::Text(text))).await {
             Ok(Ok(())) => {}
@@ -376,7 +444,7 @@ async fn write(
             next = changes.recv() => match next {
                 Ok(next) => next,
                 Err(broadcast::error::RecvError::Lagged(_)) => {
-                    let (snapshot, again) = shared.join();
+                    let (snapshot, again) = vehicle.join();
                     receiver = again;
                     snapshot
                 }
@@ -417,6 +485,7 @@ async fn discard(stream: &mut SplitStream<WebSocket>) {
 async fn read(
     mut stream: SplitStream<WebSocket>,
     shared: &Shared,
+    vehicle: &Vehicle,
     answers: mpsc::Sender<ws::Utf8Bytes>,
     by: Operator,
 ) -> Option<SplitStream<WebSocket>> {
@@ -434,7 +503,7 @@ async fn read(
             ws::Message::Close(_) => return None,
         };
         let now = start.elapsed();
-        let mut order = || requests.order(now, text, shared.files.planning());
+        let mut order = || requests.order(now, text, &vehicle.planning);
         let requested = if text.len() > QUICKLY_READ_BYTES {
             // The semaphore is never closed.
             let _turn = shared.long_requests.acquire().await;
@@ -443,10 +512,14 @@ async fn read(
             order()
         };
         let answer = match requested {
-            Ok(None) => json!({ "type": "armed" }),
-            Ok(Some(order)) => {
+            Ok(Requested::Armed) => json!({ "type": "armed" }),
+            Ok(Requested::LandAll) => match shared.land_all(by) {
+                Ok(()) => accepted("land"),
+                Err(why) => refused(Some("land"), &why.to_string()),
+            },
+            Ok(Requested::Order(order)) => {
                 let (answers, name) = (answers.clone(), order.name());
-                let ordered = shared.controls.order_answered(by, order, move |answer| {
+                let ordered = vehicle.controls.order_answered(by, order, move |answer| {
                     let answer = match answer {
                         Ok(()) => accepted(name),
                         Err(why) => refused(Some(name), &why.to_string()),

@@ -1,6 +1,6 @@
 //! Snapshot for a browser that connects, so that reloading the page loses nothing.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use autopilot::agent::{
@@ -30,6 +30,10 @@ pub(super) struct Snapshot {
     steps: Vec<Step>,
     limits: FlightLimits,
     vehicle: VehicleName,
+    /// All vehicles of the page.
+    fleet: Vec<VehicleName>,
+    /// What the others do.
+    others: BTreeMap<VehicleName, Value>,
     /// The drone that is flown, for people.
     drone: String,
     name: String,
@@ -43,12 +47,19 @@ pub(super) struct Snapshot {
 
 impl Snapshot {
     /// Initial state, with a plan or without a mission.
-    pub(super) fn new(plan: Option<&Plan>, config: &VehicleConfig, drone: &str) -> Self {
+    pub(super) fn new(
+        plan: Option<&Plan>,
+        config: &VehicleConfig,
+        drone: &str,
+        fleet: &[VehicleName],
+    ) -> Self {
         let name = plan.map_or("", Plan::name);
         Self {
             steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
             limits: config.limits,
             vehicle: config.name,
+            fleet: fleet.to_vec(),
+            others: BTreeMap::new(),
             drone: printable(drone).into_owned(),
             name: printable(name).into_owned(),
             notes: plan.map_or(Vec::new(), |plan| plan.notes().to_vec()),
@@ -105,6 +116,33 @@ impl Snapshot {
         object
     }
 
+    /// Another vehicle does this now.
+    pub(super) fn take_in_other(&mut self, vehicle: VehicleName, seen: &Value) {
+        self.others.insert(vehicle, seen.clone());
+    }
+
+    /// What others see of this vehicle, after a message about it: nothing new but of a status, or its end.
+    pub(super) fn as_other(&self, message: &Value) -> Option<Value> {
+        let is_news = matches!(message["type"].as_str(), Some("status" | "end"));
+        is_news.then(|| {
+            let seen = |key: &str| self.status.get(key).cloned().unwrap_or(Value::Null);
+            json!({
+                "type": "other",
+                "vehicle": self.vehicle,
+                "phase": if self.end.is_null() { seen("phase") } else { "over".into() },
+                "emergency": seen("emergency"),
+                "airborne": seen("airborne"),
+                "pose": seen("pose"),
+                "horizontal_deviation_m": seen("horizontal_deviation_m"),
+                "battery_percent": seen("battery_percent"),
+                "step": seen("step"),
+                "steps": seen("steps"),
+                "navdata_age_s": seen("navdata_age_s"),
+                "outcome": self.end.get("outcome"),
+            })
+        })
+    }
+
     fn remember(&mut self, event: &Value) {
         self.events.push_back(event.clone());
         if self.events.len() > EVENTS {
@@ -137,6 +175,8 @@ impl Snapshot {
             "type": "flight",
             "version": env!("CARGO_PKG_VERSION"),
             "vehicle": self.vehicle,
+            "fleet": self.fleet,
+            "others": self.others.values().collect::<Vec<_>>(),
             "drone": self.drone,
             "plan": self.name,
             "notes": self.notes,
@@ -146,6 +186,7 @@ impl Snapshot {
                 // To a millimetre: a circle is drawn with many corners.
                 "outline_m": self.limits.border.outline_m().map(rounded).collect::<Vec<_>>(),
             },
+            "start_m": self.limits.start.map_or([0.0; 2], |start| [start.x_m, start.y_m]),
             "floor_m": self.limits.floor_m,
             "ceiling_m": self.limits.ceiling_m,
             "battery_percent_s": battery_percent(Duration::from_secs(1)),
@@ -189,7 +230,12 @@ mod tests {
     #[test]
     fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut snapshot = Snapshot::new(Some(&plan), &VehicleConfig::default(), "192.168.1.1");
+        let mut snapshot = Snapshot::new(
+            Some(&plan),
+            &VehicleConfig::default(),
+            "192.168.1.1",
+            &[VehicleName::default()],
+        );
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
             let started = Telemetry::Event(FlightEvent::StepStarted { step });

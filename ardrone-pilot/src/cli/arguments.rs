@@ -148,12 +148,25 @@ pub(super) struct FlyFleet {
     /// Where z = 0 of the plans is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
-    /// Record the flights to this folder, each in a file with the vehicle's name [default: flights/DATE-FLEET]
-    #[arg(long, value_name = "FOLDER")]
-    pub(super) log: Option<PathBuf>,
+    /// Record the flights to this folder, each to a file DATE-FLEET-VEHICLE.mcap
+    #[arg(long, value_name = "FOLDER", default_value = "flights")]
+    pub(super) log: PathBuf,
     /// Do not record the flights
     #[arg(long, conflicts_with = "log")]
     pub(super) no_log: bool,
+    /// Show all flights in a browser, and take orders from it; at an address that others can reach, with
+    /// a token
+    #[arg(
+        long,
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        default_missing_value = "127.0.0.1:8080",
+        value_parser = page_address
+    )]
+    pub(super) ui: Option<SocketAddr>,
+    /// Folder of the plans that the page opens and saves
+    #[arg(long, value_name = "FOLDER", default_value = "plans", requires = "ui")]
+    pub(super) plans: PathBuf,
     #[command(flatten)]
     pub(super) mavlink: MavlinkArguments,
     /// Print how regular the ticks were and what they cost

@@ -156,7 +156,9 @@ impl fmt::Display for Report<'_> {
                 seconds(meeting.at)
             )?;
             match finite(meeting.together_m) {
-                Some(together_m) => writeln!(f, "; kept apart, never nearer than {together_m:.2} m")?,
+                Some(together_m) => {
+                    writeln!(f, "; kept apart, never nearer than {together_m:.2} m")?
+                }
                 None => writeln!(f, "; kept apart, never in the air at the same time")?,
             }
         }

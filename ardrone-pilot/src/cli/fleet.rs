@@ -1,7 +1,7 @@
 //! Flying several vehicles in one room.
 
 use std::io::IsTerminal as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{Plan, Step};
@@ -13,7 +13,7 @@ use serde_json::json;
 use super::arguments::FlyFleet;
 use super::crew::Crew;
 use super::fly::{
-    FLIGHTS, Station, UNSHOWN, make_folder, mock_address, print_object, record_to, since_epoch,
+    SETTINGS, Station, UNSHOWN, make_folder, mock_address, print_object, record_to, since_epoch,
 };
 use super::keys::{self, Keys};
 use super::program::{self, AtEnd, Lines};
@@ -21,6 +21,7 @@ use super::progress::Progress;
 use super::prompt::PromptLine;
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
+use crate::browser::{self, Browser, Listener, PageConfig, Planning, SettingsFile};
 use crate::fleet::{Fleet, Member};
 use crate::flight::{Beside, Content, FinishedFlight, Flight, Message, Seat};
 use crate::json;
@@ -28,6 +29,7 @@ use crate::mavlink::MavlinkServer;
 use crate::recording::{Header, Recorder, Recording, file_name};
 use crate::runtime::{Runtime, SecondSignal};
 use crate::timing::TimingReport;
+use crate::video::Video;
 
 /// Exit statuses of flights, the worst first; 0 is none of them.
 const WORST_FIRST: [u8; 8] = [50, 40, 10, 30, 60, 130, 20, 1];
@@ -63,6 +65,7 @@ struct Under<'a> {
     member: &'a Member,
     flight: Flight,
     mavlink: Option<MavlinkServer>,
+    video: Option<Video>,
 }
 
 /// What is shown of a vehicle, and remains of it at the end.
@@ -88,6 +91,10 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
         own_drones(&fleet)?;
     }
     let prepared = prepare(&fleet, arguments, &mut progress)?;
+    let listener = arguments.ui.map(Listener::bind).transpose()?;
+    if let Some(listener) = &listener {
+        progress.print_line(&format!("watch them at {}", listener.url()));
+    }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let (mut flying, mut shown) = (Vec::new(), Vec::new());
     for (prepared, seat) in prepared.into_iter().zip(Seat::in_one_room(fleet.members.len())) {
@@ -97,10 +104,16 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
         let flight = Flight::start(&runtime, member.plan.clone(), &member.config, &drone, beside)?;
         let controls = flight.controls();
         let mavlink = station.and_then(|station| station.open(&runtime, &controls, &mut progress));
-        flying.push(Under { member, flight, mavlink });
+        let video = listener.is_some().then(|| camera(&runtime, member, mock.as_ref()));
+        flying.push(Under { member, flight, mavlink, video });
         let start = member.config.estimator.start.unwrap_or_default();
         shown.push(Shown { mock, start, recording, steps: Vec::new(), truths: Vec::new() });
     }
+    let open = |listener: Listener| {
+        let page = page_config(arguments, &fleet, &shown);
+        listener.open(&runtime, page, flying.iter().map(Under::on_page).collect())
+    };
+    let browser = listener.map(open);
     let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
     let limits = fleet.members[0].config.limits;
     let keys = Keys::start(crew.clone(), &limits, prompt);
@@ -115,6 +128,9 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
     let unshown = pass_on(&flying, |place, message| {
         let one = &mut shown[place];
         one.take_in(message, arguments.json);
+        if let Some(browser) = &browser {
+            browser.show(message);
+        }
         progress.show(message);
         if let Some(problem) = one.recording.as_ref().and_then(Recording::problem) {
             progress.warn(&problem.to_string());
@@ -124,13 +140,51 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
     progress.end();
     let mut statuses = Vec::new();
     for ((under, shown), unshown) in flying.into_iter().zip(shown).zip(unshown) {
-        statuses.push(finish(under, shown, unshown, arguments)?);
+        statuses.push(finish(under, shown, unshown, browser.as_ref(), arguments)?);
     }
     let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
     if arguments.json {
         print_object(&json!({ "type": "fleet_end", "exit_status": status }));
     }
     Ok(status)
+}
+
+impl Under<'_> {
+    fn on_page(&self) -> browser::Shown {
+        let Member { config, plan, settings, drone, .. } = self.member;
+        let planning = Planning { config: config.clone(), surveyed: settings.surveyed_tags() };
+        browser::Shown {
+            plan: plan.clone(),
+            drone: drone.host.clone(),
+            planning,
+            controls: self.flight.controls(),
+            video: self.video.as_ref().map(Video::feed),
+        }
+    }
+}
+
+/// What a vehicle's camera sees.
+fn camera(runtime: &Runtime, member: &Member, mock: Option<&MockDrone>) -> Video {
+    let (host, port) = match mock.map(MockDrone::ports) {
+        Some(ports) => (ports.host.to_string(), ports.video.unwrap_or_default()),
+        None => (member.drone.host.clone(), member.video_port),
+    };
+    Video::start(runtime, &host, port, None)
+}
+
+/// What the page offers besides the flights.
+fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConfig {
+    let recordings = shown.iter().filter_map(|one| one.recording.as_ref());
+    PageConfig {
+        plans: arguments.plans.clone(),
+        flights: arguments.log.clone(),
+        recordings: recordings.map(|recording| recording.path().to_owned()).collect(),
+        settings: SettingsFile {
+            path: fleet.config.clone().unwrap_or_else(|| PathBuf::from(SETTINGS)),
+            is_used: fleet.config.is_some(),
+            in_effect: fleet.settings.clone(),
+        },
+    }
 }
 
 /// Each vehicle needs a drone of its own.
@@ -152,17 +206,13 @@ fn prepare<'a>(
     progress: &mut Progress,
 ) -> Result<Vec<Prepared<'a>>, CommandError> {
     let begun = since_epoch();
-    let logs = if arguments.no_log {
-        None
-    } else {
-        let usual = || Path::new(FLIGHTS).join(file_name(begun, fleet.name)).with_extension("");
-        Some(make_folder(arguments.log.clone().unwrap_or_else(usual))?)
-    };
+    let logs = (!arguments.no_log).then(|| make_folder(arguments.log.clone())).transpose()?;
     let mut all = Vec::new();
     for member in &fleet.members {
         let name = member.config.name;
         let mock = if arguments.mock {
-            Some(MockDrone::start(&member.world(), Ports::LOOPBACK)?)
+            let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
+            Some(MockDrone::start(&member.world(), ports)?)
         } else {
             None
         };
@@ -184,7 +234,9 @@ fn prepare<'a>(
             drone: label.to_owned(),
             ..Header::default()
         };
-        let path = logs.as_ref().map(|folder| folder.join(format!("{name}.mcap")));
+        let path = logs
+            .as_ref()
+            .map(|folder| folder.join(file_name(begun, format_args!("{}-{name}", fleet.name))));
         let record = |path: PathBuf| record_to(&path, header, member.plan.as_ref());
         let (recorder, recording) = path.map(record).transpose()?.unzip();
         all.push(Prepared { member, mock, drone, station, recorder, recording });
@@ -202,8 +254,7 @@ fn beginning(name: VehicleName, plan: Option<&Plan>, drone: &str) -> String {
 /// How standard input is read if no keys are.
 fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
     let waits = fleet.members.iter().any(|member| member.plan.is_none());
-    let at_end =
-        if waits && !arguments.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
+    let at_end = if waits && !arguments.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
     match (arguments.json, waits) {
         (true, _) => Some((Lines::Json, at_end)),
         (false, true) => Some((Lines::Typed, at_end)),
@@ -266,11 +317,12 @@ fn finish(
     under: Under<'_>,
     shown: Shown,
     unshown: u64,
+    browser: Option<&Browser>,
     arguments: &FlyFleet,
 ) -> Result<u8, CommandError> {
-    let Under { member, flight, mavlink } = under;
+    let Under { member, flight, mavlink, video } = under;
     let has_quit = flight.controls().has_quit();
-    drop(mavlink);
+    drop((mavlink, video));
     let mut finished: FinishedFlight = flight.finish()?;
     finished.dropped_messages += unshown;
     let flew_a_plan = member.plan.is_some();
@@ -279,8 +331,12 @@ fn finish(
         status => status,
     };
     let recorded = shown.recording.and_then(Recording::finish);
+    let end = json::end(&finished, recorded.as_ref(), status);
+    if let Some(browser) = browser {
+        browser.end(finished.vehicle, &end);
+    }
     if arguments.json {
-        print_object(&json::end(&finished, recorded.as_ref(), status));
+        print_object(&end);
         return Ok(status);
     }
     terminal::print(format_args!("{}: ", finished.vehicle));

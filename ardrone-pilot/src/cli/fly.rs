@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
-use autopilot::vehicle::{Start, SurveyedTag, Telemetry, VehicleConfig, VehicleName};
+use autopilot::vehicle::{Start, SurveyedTag, Telemetry, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
@@ -22,7 +22,7 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, read, read_settings, terminal};
-use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile};
+use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile, Shown};
 use crate::flight::{Beside, Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
@@ -34,9 +34,9 @@ use crate::timing::TimingReport;
 use crate::video::Video;
 
 /// Folder of the recordings unless another one is given.
-pub(super) const FLIGHTS: &str = "flights";
+const FLIGHTS: &str = "flights";
 /// The settings that the page writes where none were given.
-const SETTINGS: &str = "pilot.toml";
+pub(super) const SETTINGS: &str = "pilot.toml";
 /// Messages that may wait to be printed.
 pub(super) const UNSHOWN: usize = 256;
 
@@ -85,10 +85,16 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let beside = Beside { recorder, seat: None };
     let flight = Flight::start(&runtime, plan.clone(), &config, &drone, beside)?;
     let controls = flight.controls();
-    let page = page_config(arguments, &settings, config.clone(), recording.as_ref());
     let open = |listener: Listener| {
-        let feed = video.as_ref().map(Video::feed);
-        listener.open(&runtime, plan.as_ref(), page, controls.clone(), feed)
+        let shown = Shown {
+            plan: plan.clone(),
+            drone: drone_name(arguments).to_owned(),
+            planning: Planning { config: config.clone(), surveyed: settings.surveyed_tags() },
+            controls: controls.clone(),
+            video: video.as_ref().map(Video::feed),
+        };
+        let page = page_config(arguments, &settings, recording.as_ref());
+        listener.open(&runtime, page, vec![shown])
     };
     let browser = listener.map(open);
     let mavlink = mavlink.and_then(|station| station.open(&runtime, &controls, &mut progress));
@@ -120,7 +126,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let recorded = outputs.recording.and_then(Recording::finish);
     let end = json::end(&finished, recorded.as_ref(), status);
     if let Some(browser) = outputs.browser {
-        browser.end(&end);
+        browser.end(config.name, &end);
     }
     if arguments.json {
         print_object(&end);
@@ -382,19 +388,11 @@ pub(super) fn record_to(
 }
 
 /// What the page offers besides the flight.
-fn page_config(
-    arguments: &Fly,
-    settings: &Settings,
-    config: VehicleConfig,
-    recording: Option<&Recording>,
-) -> PageConfig {
-    let surveyed = settings.surveyed_tags();
+fn page_config(arguments: &Fly, settings: &Settings, recording: Option<&Recording>) -> PageConfig {
     PageConfig {
-        drone: drone_name(arguments).to_owned(),
-        planning: Planning { config, surveyed },
         plans: arguments.plans.clone(),
         flights: log_folder(arguments),
-        recording: recording.map(|recording| recording.path().to_owned()),
+        recordings: recording.iter().map(|recording| recording.path().to_owned()).collect(),
         settings: SettingsFile {
             path: arguments.config.clone().unwrap_or_else(|| PathBuf::from(SETTINGS)),
             is_used: arguments.config.is_some(),

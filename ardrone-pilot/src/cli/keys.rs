@@ -27,8 +27,7 @@ use crate::typed::{self, Typed, TypedError};
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
     wasd and arrows fly by hand, e and then Enter cuts the motors, : types an order (`:help`)";
 /// What they are for besides, in a fleet.
-pub(super) const HELP_OF_FLEET: &str =
-    "1 to 9 choose a vehicle, 0 all: space, r, l and e are for those; q lands all, whoever is chosen";
+pub(super) const HELP_OF_FLEET: &str = "1 to 9 choose a vehicle, 0 all: space, r, l and e are for those; q lands all, whoever is chosen";
 
 /// Stick fraction of one key. Terminals repeat a held key, but do not report its release.
 const STICK: f64 = 0.4;
@@ -117,11 +116,7 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Starts reading keys, if standard input is a terminal.
-    pub(super) fn start(
-        crew: Crew,
-        limits: &FlightLimits,
-        line: PromptLine,
-    ) -> Option<Self> {
+    pub(super) fn start(crew: Crew, limits: &FlightLimits, line: PromptLine) -> Option<Self> {
         if !stdin().is_terminal() {
             return None;
         }

@@ -351,11 +351,15 @@ mod tests {
         assert_eq!(right, (json!("right"), Ok("right".to_owned())));
         assert_eq!(whose(r#"{"order":"land"}"#), (Value::Null, Ok("all vehicles".to_owned())));
         assert!(whose(r#"{"vehicle":"middle","order":"land"}"#).1.unwrap_err().contains("middle"));
-        let typed = |line: &str| {
-            match parse_typed(Ok(line.to_owned()), &FlightLimits::default(), &crew).1 {
-                Ok(Wanted::Order(whose, order)) => (whose.to_string(), order),
-                other => panic!("{line}: {other:?}"),
-            }
+        let typed = |line: &str| match parse_typed(
+            Ok(line.to_owned()),
+            &FlightLimits::default(),
+            &crew,
+        )
+        .1
+        {
+            Ok(Wanted::Order(whose, order)) => (whose.to_string(), order),
+            other => panic!("{line}: {other:?}"),
         };
         assert_eq!(typed("left hold"), ("left".to_owned(), OperatorOrder::Hold));
         assert_eq!(typed("hold"), ("all vehicles".to_owned(), OperatorOrder::Hold));
@@ -395,9 +399,7 @@ mod tests {
         let start = requested(r#"{"id":7,"order":"start","when_ready":true}"#);
         assert_eq!(start, order(OperatorOrder::Start { when_ready: true }));
         let load = requested(r#"{"id":7,"order":"load","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
-        assert!(
-            matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3)
-        );
+        assert!(matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3));
         let append = requested(r#"{"id":7,"order":"append","commands":"goto 1 0 0 0"}"#);
         assert!(matches!(append, Ok(Some(OperatorOrder::Append(_)))));
         let high = Place { height_m: Some(1.5), ..Place::default() };

@@ -27,6 +27,10 @@ pub struct Fleet {
     pub name: VehicleName,
     /// At least one.
     pub members: Vec<Member>,
+    /// The settings that all have in common, and the file of those.
+    pub settings: Settings,
+    /// See `settings`.
+    pub config: Option<PathBuf>,
     /// What is unwise.
     pub warnings: Diagnostics,
 }
@@ -101,7 +105,8 @@ impl Fleet {
             message: error.to_string().trim_end().to_owned(),
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let settings = shared_settings(&written, folder)?;
+        let config = written.fleet.config.as_ref().map(|config| folder.join(config));
+        let settings = shared_settings(&written, config.as_deref())?;
         let findings = findings(&written, &settings, text.trim_end().len(), z_origin);
         let findings = Diagnostics::new([SourceText { name, text }], findings);
         if findings.has_errors() {
@@ -115,14 +120,14 @@ impl Fleet {
             member(vehicle, *system, peers, &settings, folder, z_origin)
         });
         let members = members.collect::<Result<_, _>>()?;
-        Ok(Self { name: written.fleet.name.unwrap_or_else(file::usual_name), members, warnings: findings })
+        let name = written.fleet.name.unwrap_or_else(file::usual_name);
+        Ok(Self { name, members, settings, config, warnings: findings })
     }
 }
 
 /// Those that all have.
-fn shared_settings(written: &Written, folder: &Path) -> Result<Settings, FleetError> {
-    let config = written.fleet.config.as_ref().map(|config| folder.join(config));
-    let mut settings = match &config {
+fn shared_settings(written: &Written, config: Option<&Path>) -> Result<Settings, FleetError> {
+    let mut settings = match config {
         Some(path) => Settings::parse(&path.display().to_string(), &read("the settings", path)?)?,
         None => Settings::default(),
     };
@@ -184,7 +189,8 @@ fn findings(
         let others = || written.vehicle.iter().zip(&systems).take(number);
         let (name, span) = (vehicle.name.get_ref(), vehicle.name.span());
         if others().any(|(other, _)| other.name.get_ref() == name) {
-            findings.push(Diagnostic::error(format!("two vehicles are called {name}"), span.clone()));
+            findings
+                .push(Diagnostic::error(format!("two vehicles are called {name}"), span.clone()));
         }
         if !(1..=250).contains(&systems[number])
             || others().any(|(_, system)| *system == systems[number])
@@ -219,14 +225,16 @@ fn start_findings<'a>(
     for other in others {
         let Some(there) = other.start.get_ref().0 else { continue };
         let apart_m = Vector2::norm(&(there.place_m - start.place_m));
-        let pair = format!("{name} and {} start {apart_m:.2} m from each other", other.name.get_ref());
+        let pair =
+            format!("{name} and {} start {apart_m:.2} m from each other", other.name.get_ref());
         let separation_m = config.separation_m;
         if apart_m < separation_m {
             let message = format!("{pair}, and fly no nearer than {separation_m} m");
             let help = "put them further apart, or give a smaller `separation_m`";
             findings.push(Diagnostic::error(message, span.clone()).help(help));
         } else if apart_m < ULTRASOUND_M && vehicle.ultrasound() == other.ultrasound() {
-            let message = format!("{pair}, and hear each other's ultrasound: their heights may be wrong");
+            let message =
+                format!("{pair}, and hear each other's ultrasound: their heights may be wrong");
             let help = "give one of them `ultrasound = 7`, or put them 3 m apart";
             findings.push(Diagnostic::warning(message, span.clone()).help(help));
         }

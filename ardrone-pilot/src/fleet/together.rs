@@ -16,8 +16,6 @@ use crate::simulation::{self, SimulatedFlight};
 const LONGEST: Duration = Duration::from_mins(20);
 /// Interval of the places.
 const TRACK: Duration = Duration::from_millis(100);
-/// Lower than this a drone is on the ground.
-const UP_M: f64 = 0.1;
 
 /// A fleet's simulated flights: each alone, and all together.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +91,7 @@ impl Flying {
         });
         if now >= TRACK * u32::try_from(self.places_m.len()).unwrap_or(u32::MAX) {
             let position_m = self.driver.world().truth().position_m;
-            let is_up = position_m.z > UP_M;
+            let is_up = self.driver.vehicle.decision().is_some_and(simulation::is_in_the_air);
             self.places_m.push(is_up.then(|| self.start.in_world(position_m.xy())));
         }
         let told = ticked.then(|| self.driver.vehicle.as_neighbour(now)).flatten();

@@ -83,7 +83,6 @@ fn unlocked<T>(place: &Mutex<T>) -> Option<std::sync::MutexGuard<'_, T>> {
     }
 }
 
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector2;

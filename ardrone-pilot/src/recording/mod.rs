@@ -14,6 +14,7 @@ mod recorder;
 mod topic;
 mod writer;
 
+use std::fmt;
 use std::time::Duration;
 
 pub use messages::{
@@ -134,7 +135,7 @@ pub enum Record {
 }
 
 /// Name of the log of a flight that starts then, since the Unix epoch: `2026-11-21T13-45-07Z-ardrone.mcap`. Names that sort by time, differ for each vehicle, and are valid on any file system.
-pub fn file_name(start: Duration, vehicle: VehicleName) -> String {
+pub fn file_name(start: Duration, vehicle: impl fmt::Display) -> String {
     let start = UtcDateTime::UNIX_EPOCH + start;
     let (date, time) = (start.date(), start.time());
     format!(

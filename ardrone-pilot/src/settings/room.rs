@@ -137,7 +137,8 @@ mod tests {
             let text = format!("[room]\nstart = [{start}]\nseparation_m = 2\npeers = [2, 3]\n");
             let settings = Settings::parse("p", &text).unwrap();
             let config = settings.pilot_config(ZOrigin::Hover);
-            let expected = Start { place_m: Vector2::new(1.0, -2.0), heading_deg: 90.0, deviation_m };
+            let expected =
+                Start { place_m: Vector2::new(1.0, -2.0), heading_deg: 90.0, deviation_m };
             assert_eq!(config.estimator.start, Some(expected));
             assert_eq!((config.separation_m, config.peers), (2.0, vec![2, 3]));
             assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);

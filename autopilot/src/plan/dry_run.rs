@@ -20,7 +20,12 @@ pub(crate) struct DryRun {
 impl DryRun {
     pub(crate) fn new(limits: &FlightLimits) -> Self {
         let interpreter = Interpreter::new(limits);
-        Self { interpreter, place: limits.start.unwrap_or_default(), airborne: false, tags_m: Vec::new() }
+        Self {
+            interpreter,
+            place: limits.start.unwrap_or_default(),
+            airborne: false,
+            tags_m: Vec::new(),
+        }
     }
 
     /// A run that continues from `place`.
@@ -125,7 +130,8 @@ mod tests {
     fn a_surveyed_start_moves_the_drone_but_not_the_targets() {
         let start = Pose { x_m: 3.0, y_m: -1.0, z_m: 0.0, yaw_deg: 90.0 };
         let limits = FlightLimits { start: Some(start), ..FlightLimits::default() };
-        let plan = "takeoff\nmoveBy 1 0 0 0\ngoto 0 1 0 0\nsetReference $START$\ngoto 0 0 1 0\nland\n";
+        let plan =
+            "takeoff\nmoveBy 1 0 0 0\ngoto 0 1 0 0\nsetReference $START$\ngoto 0 0 1 0\nland\n";
         let plan = Plan::parse("plan", plan).unwrap();
         let mut run = DryRun::new(&limits);
         let places = plan.steps().iter().filter_map(|step| {

@@ -13,7 +13,7 @@ const heights = (() => {
   function planned() {
     const steps = flight.steps.map(({ target }, index) => ({ target, label: index + 1 })).filter(({ target }) => target);
     const targets = view === "plan" ? plan.targets() : steps.map(({ target, label }) => ({ x: target.x_m, y: target.y_m, z: target.z_m, label }));
-    const first = targets.length ? [[0, 0, 0], [0, 0, targets[0].z]] : [];
+    const first = targets.length ? [[...flight.start_m, 0], [...flight.start_m, targets[0].z]] : [];
     return { way: [...first, ...targets.map(({ x, y, z }) => [x, y, z])], targets };
   }
 
@@ -91,7 +91,7 @@ const heights = (() => {
     const { way, targets } = planned();
     const flown = flownWay();
     const outline = flight.fence.outline_m;
-    const shown = [[0, 0, 0], ...way, ...flown];
+    const shown = [[...flight.start_m, 0], ...way, ...flown];
     const reach = Math.max(1, ...shown.map(([x, y]) => Math.max(Math.abs(x), Math.abs(y)))) * 1.3;
     const scale = (zoom * Math.min(width, height)) / (2 * reach) * 0.8;
     const [sin, cos, up, down] = [Math.sin(turn), Math.cos(turn), Math.cos(tilt), Math.sin(tilt)];

@@ -89,12 +89,13 @@ const map = (() => {
   // What there is to see: places that must be on the map.
   function extent() {
     const planning = document.body.dataset.view === "plan";
-    const places = [[0, 0]];
+    const places = [flight.start_m];
     if (planning) {
       places.push(...plan.places());
     } else {
       for (const { target } of flight.steps) if (target) places.push([target.x_m, target.y_m]);
       if (status && status.pose) places.push([status.pose.x_m, status.pose.y_m]);
+      places.push(...fleet.places());
       const played = flights.playing();
       if (played) places.push([played.pose.x_m, played.pose.y_m]);
       if (status && status.target) places.push([status.target.x_m, status.target.y_m]);
@@ -135,16 +136,17 @@ const map = (() => {
     plan.drawOn(size);
     if (planning) {
       setTargets([]);
-      set($("way"), { points: points([[0, 0], ...plan.targets().map(({ x, y }) => [x, y])]) });
+      set($("way"), { points: points([flight.start_m, ...plan.targets().map(({ x, y }) => [x, y])]) });
     } else {
       const numbered = flight.steps.map(({ target }, index) => ({ target, label: index + 1 })).filter(({ target }) => target);
       setTargets(numbered.map(({ target, label }) => ({ x: target.x_m, y: target.y_m, label })));
-      set($("way"), { points: points([[0, 0], ...numbered.map(({ target }) => [target.x_m, target.y_m])]) });
+      set($("way"), { points: points([flight.start_m, ...numbered.map(({ target }) => [target.x_m, target.y_m])]) });
     }
     for (const { x, y, labels, mark } of marks) {
       const isNow = status && labels.includes(status.step + 1);
       set(mark, { transform: `translate(${x} ${-y}) scale(${size * 0.8})`, class: isNow ? "now" : "" });
     }
+    fleet.drawOn(size);
     drawDrone(size);
     drawTags(size);
   }

@@ -86,6 +86,9 @@ function take(message) {
     case "landed":
       addEvent(message);
       break;
+    case "other":
+      fleet.take(message);
+      break;
     case "ready":
       readiness = message;
       break;
@@ -138,6 +141,7 @@ function begin(message) {
   trailOfFlight = 0;
   readiness = message.ready;
   if (message.end) finish(message.end);
+  fleet.begin(message);
   plan.begin(message);
   // Somebody without a mission makes one first.
   if (!view) show(message.steps.length ? "fly" : "plan");
@@ -253,6 +257,7 @@ function draw() {
   drawAdvice();
   drawButtons();
   if (!flight) return;
+  fleet.drawList();
   if (!["flights", "settings"].includes(view)) {
     map.draw();
     heights.draw();
@@ -331,7 +336,7 @@ function drawFacts() {
   put("timeleft", left === null ? "–" : `≈ ${minutes(left)}`, left !== null && left < 60);
   put("speed", velocity ? `${Math.hypot(...velocity).toFixed(1)} m/s` : "–");
   put("high", pose ? `${pose.z_m.toFixed(1)} m` : "–");
-  put("home", pose ? `${Math.hypot(pose.x_m, pose.y_m).toFixed(1)} m` : "–");
+  put("home", pose ? `${Math.hypot(pose.x_m - flight.start_m[0], pose.y_m - flight.start_m[1]).toFixed(1)} m` : "–");
   const age = status.navdata_age_s;
   const stale = age === null || age > 0.3;
   // Of the usual 15 packets a second.
