@@ -80,10 +80,10 @@ impl Drop for Flown {
 }
 
 /// A WebSocket client in place of the page.
-struct Live(WebSocket<TcpStream>);
+pub(crate) struct Live(WebSocket<TcpStream>);
 
 impl Live {
-    fn from(
+    pub(crate) fn from(
         host: &str,
         path: &str,
         origin: Option<&str>,
@@ -98,7 +98,7 @@ impl Live {
     }
 
     /// The next message of this type.
-    fn next(&mut self, kind: &str) -> Value {
+    pub(crate) fn next(&mut self, kind: &str) -> Value {
         loop {
             let message = match self.0.read() {
                 // An interrupted system call, which is unrelated to the page.
@@ -115,7 +115,7 @@ impl Live {
         }
     }
 
-    fn order(&mut self, request: &Value) {
+    pub(crate) fn order(&mut self, request: &Value) {
         self.0.send(Message::text(request.to_string())).unwrap();
     }
 }

@@ -93,7 +93,7 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
     let prepared = prepare(&fleet, arguments, &mut progress)?;
     let listener = arguments.ui.map(Listener::bind).transpose()?;
     if let Some(listener) = &listener {
-        progress.print_line(&format!("watch them at {}", listener.url()));
+        progress.print_line(&format!("watch it at {}", listener.url()));
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let (mut flying, mut shown) = (Vec::new(), Vec::new());
