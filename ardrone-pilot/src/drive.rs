@@ -231,10 +231,17 @@ impl Surroundings for Simulated {
     }
 }
 
+impl Simulated {
+    /// A simulated drone at time zero.
+    pub fn new(world: World) -> Self {
+        Self { world, now: Duration::ZERO }
+    }
+}
+
 impl Driver<Simulated> {
     /// A vehicle with a simulated drone.
     pub fn new(vehicle: Vehicle, world: &WorldConfig) -> Self {
-        Self::over(vehicle, Simulated { world: World::new(world), now: Duration::ZERO })
+        Self::over(vehicle, Simulated::new(World::new(world)))
     }
 
     /// The drone and the air around it.

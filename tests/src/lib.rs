@@ -12,6 +12,7 @@ pub mod rules;
 pub mod sensors;
 pub mod sim;
 pub mod streams;
+pub mod tick_times;
 mod trial;
 
 use autopilot::Plan;

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use autopilot::vehicle::CannotFly;
 use system_tests::fleet::{Fleet, FleetFlight, NEAREST_M, crossing};
+use system_tests::tick_times;
 
 use crate::parallel;
 
@@ -14,6 +15,8 @@ const LIMIT: Duration = Duration::from_mins(4);
 /// Vehicles of a crossing start this far from the point through which all fly.
 const RADIUS_M: f64 = 3.0;
 const CROSSING: RangeInclusive<usize> = 2..=6;
+/// Other vehicles beside which the time of a tick is measured.
+const OTHERS: [u8; 3] = [1, 4, 19];
 
 /// Flies random fleets from `first` on, and a fifth as many crossings of each size; returns the report, and whether all kept
 /// apart and came down, and all that crossed arrived.
@@ -30,6 +33,7 @@ pub(crate) fn run(fleets: u64, first: u64) -> Result<(String, bool), CannotFly> 
         let flown = parallel::map(&seeds, |seed| crossing(count, RADIUS_M, seed).fly(LIMIT))?;
         good &= report(&mut text, &format!("crossing of {count}"), &seeds, &flown, true);
     }
+    text += &tick_times::report(&OTHERS)?;
     Ok((text, good))
 }
 
