@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
+use crate::plan;
 use ardrone_pilot::drive::{Driver, Simulated, Surroundings, Take};
 use autopilot::Vehicle;
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{CannotFly, Input, Start, Transmit, VehicleConfig};
 use mock_drone::{World, WorldConfig};
 use nalgebra::Vector2;
-use crate::plan;
 
 /// The vehicle goes to and fro in the middle of the others.
 const PLAN: &str = "takeoff\ngoto 0 1 0 0\ngoto 0 -1 0 0\ngoto 0 1 0 0\ngoto 0 -1 0 0\nland\n";

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader, Write as _};
+use std::net::UdpSocket;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
 
 use ardrone_pilot::recording::Log;
 use ardrone_pilot::replay::Replay;
@@ -262,6 +264,29 @@ fn the_page_shows_each_vehicle_with_the_others_and_lands_all() {
         live.next("landed");
     }
     assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+/// As QGroundControl tells vehicles apart.
+#[test]
+fn each_vehicle_is_a_mavlink_system_of_its_own() {
+    let station = UdpSocket::bind("127.0.0.1:0").unwrap();
+    station.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    let files = Files::new(&[("left", -2.0, ""), ("right", 2.0, "")]);
+    let mut pilot = files.fly();
+    pilot.args(["--no-log", "--mavlink", &format!("udp:{}", station.local_addr().unwrap())]);
+    let mut child = pilot.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut heard = BTreeMap::new();
+    let mut frame = [0; 300];
+    while heard.len() < 2 {
+        let (_, from) = station.recv_from(&mut frame).unwrap();
+        // Of a frame of version 2 the sixth byte is the system.
+        assert_eq!(frame[0], 0xfd);
+        heard.insert(frame[5], from);
+    }
+    assert_eq!(heard.keys().copied().collect::<Vec<_>>(), [1, 2]);
+    assert_ne!(heard[&1], heard[&2]);
+    signal(&child, "-INT");
+    child.wait().unwrap();
 }
 
 fn check(path: &Path) -> (Option<i32>, String) {
