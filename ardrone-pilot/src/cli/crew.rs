@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, VehicleName};
 
@@ -12,6 +13,8 @@ use crate::flight::Controls;
 pub(super) struct Crew {
     all: Arc<[Controls]>,
     chosen: Option<usize>,
+    /// The one that was chosen last, for displays.
+    watched: Arc<AtomicUsize>,
 }
 
 /// An order is for one vehicle, and there are several.
@@ -22,7 +25,7 @@ pub(super) struct NoneChosen;
 impl Crew {
     /// At least one vehicle.
     pub(super) fn new(all: Vec<Controls>) -> Self {
-        Self { all: all.into(), chosen: None }
+        Self { all: all.into(), chosen: None, watched: Arc::default() }
     }
 
     /// Who gets the next orders.
@@ -47,8 +50,21 @@ impl Crew {
         let is_there = self.all.len() > 1 && place <= self.all.len();
         if is_there {
             self.chosen = place.checked_sub(1);
+            if let Some(chosen) = self.chosen {
+                self.watched.store(chosen, Ordering::Relaxed);
+            }
         }
         is_there
+    }
+
+    /// Which one was chosen last, by all clones of this; the first at first.
+    pub(super) fn watched(&self) -> usize {
+        self.watched.load(Ordering::Relaxed)
+    }
+
+    /// The names of all.
+    pub(super) fn names(&self) -> impl Iterator<Item = VehicleName> + '_ {
+        self.all.iter().map(Controls::vehicle)
     }
 
     /// The same vehicles, of which the one with this name gets the orders; nothing if there is none.

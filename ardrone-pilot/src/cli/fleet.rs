@@ -13,12 +13,14 @@ use serde_json::json;
 use super::arguments::FlyFleet;
 use super::crew::Crew;
 use super::fly::{
-    SETTINGS, Station, UNSHOWN, make_folder, mock_address, print_object, record_to, since_epoch,
+    SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, print_object, record_to,
+    since_epoch,
 };
 use super::keys::{self, Keys};
 use super::program::{self, AtEnd, Lines};
 use super::progress::Progress;
 use super::prompt::PromptLine;
+use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
 use crate::browser::{self, Browser, Listener, PageConfig, Planning, SettingsFile};
@@ -78,7 +80,7 @@ struct Shown {
 }
 
 /// Flies a fleet; returns the worst exit status.
-pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
+pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, CommandError> {
     let fleet = Fleet::read(&arguments.fleet, arguments.z_origin())?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
@@ -92,8 +94,10 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
     }
     let prepared = prepare(&fleet, arguments, &mut progress)?;
     let listener = arguments.ui.map(Listener::bind).transpose()?;
-    if let Some(listener) = &listener {
-        progress.print_line(&format!("watch it at {}", listener.url()));
+    let stations: Vec<String> =
+        listener.iter().map(|listener| format!("watch it at {}", listener.url())).collect();
+    for line in &stations {
+        progress.print_line(line);
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let (mut flying, mut shown) = (Vec::new(), Vec::new());
@@ -116,14 +120,18 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
     let browser = listener.map(open);
     let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
     let limits = fleet.members[0].config.limits;
+    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let all_limits = fleet.members.iter().map(|member| member.config.limits);
+    let screen = || Screen::start(all_limits, crew.clone(), warnings, prompt.clone());
+    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let keys = Keys::start(crew.clone(), &limits, prompt);
     if keys.is_some() {
-        progress.print_line(keys::HELP);
-        progress.print_line(keys::HELP_OF_FLEET);
+        watch.print_line(keys::HELP);
+        watch.print_line(keys::HELP_OF_FLEET);
     } else if let Some((lines, at_end)) = input(arguments, &fleet)
         && let Err(error) = program::read_orders(lines, at_end, &limits, crew)
     {
-        progress.warn(&format!("no orders can be read: {error}"));
+        watch.warn(&format!("no orders can be read: {error}"));
     }
     let unshown = pass_on(&flying, |place, message| {
         let one = &mut shown[place];
@@ -131,13 +139,13 @@ pub(super) fn run(arguments: &FlyFleet) -> Result<u8, CommandError> {
         if let Some(browser) = &browser {
             browser.show(message);
         }
-        progress.show(message);
+        watch.show(message);
         if let Some(problem) = one.recording.as_ref().and_then(Recording::problem) {
-            progress.warn(&problem.to_string());
+            watch.warn(&problem.to_string());
         }
     });
     drop(keys);
-    progress.end();
+    watch.end();
     let mut statuses = Vec::new();
     for ((under, shown), unshown) in flying.into_iter().zip(shown).zip(unshown) {
         statuses.push(finish(under, shown, unshown, browser.as_ref(), arguments)?);

@@ -98,10 +98,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let browser = listener.map(open);
     let mavlink = mavlink.and_then(|station| station.open(&runtime, &controls, &mut progress));
-    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
-    let screen = || Screen::start(&config.limits, warnings, prompt.clone());
-    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let crew = Crew::new(vec![controls.clone()]);
+    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let screen = || Screen::start([config.limits], crew.clone(), warnings, prompt.clone());
+    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let keys = Keys::start(crew.clone(), &config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
@@ -289,14 +289,14 @@ pub(super) fn print_object(object: &Value) {
 }
 
 /// Display for people.
-enum Watch {
+pub(super) enum Watch {
     Lines(Progress),
     Screen(Box<Screen>),
 }
 
 impl Watch {
     /// A screen covers what was printed before: where the flight can be watched is repeated.
-    fn new(progress: Progress, screen: Option<Screen>, stations: &[String]) -> Self {
+    pub(super) fn new(progress: Progress, screen: Option<Screen>, stations: &[String]) -> Self {
         let Some(mut screen) = screen else { return Self::Lines(progress) };
         for line in stations {
             screen.print_line(line);
@@ -304,21 +304,21 @@ impl Watch {
         Self::Screen(Box::new(screen))
     }
 
-    fn print_line(&mut self, line: &str) {
+    pub(super) fn print_line(&mut self, line: &str) {
         match self {
             Self::Lines(progress) => progress.print_line(line),
             Self::Screen(screen) => screen.print_line(line),
         }
     }
 
-    fn warn(&mut self, line: &str) {
+    pub(super) fn warn(&mut self, line: &str) {
         match self {
             Self::Lines(progress) => progress.warn(line),
             Self::Screen(screen) => screen.warn(line),
         }
     }
 
-    fn show(&mut self, message: &Message) {
+    pub(super) fn show(&mut self, message: &Message) {
         match self {
             Self::Lines(progress) => progress.show(message),
             Self::Screen(screen) => screen.show(message),
@@ -326,7 +326,7 @@ impl Watch {
     }
 
     /// Restores the terminal at the end of the flight.
-    fn end(self) {
+    pub(super) fn end(self) {
         match self {
             Self::Lines(mut progress) => progress.end(),
             Self::Screen(screen) => {

@@ -131,7 +131,7 @@ pub fn main() -> ExitCode {
             check_fleet::run(arguments)
         }
         (Some(Command::Check(arguments)), _) => check::run(arguments),
-        (Some(Command::Fleet(arguments)), _) => fleet::run(arguments),
+        (Some(Command::Fleet(arguments)), _) => fleet::run(arguments, &warnings),
         (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Video { log, output }), _) => write_video(log, output.as_deref()),

@@ -10,7 +10,7 @@ use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::Telemetry;
+use autopilot::vehicle::{Telemetry, VehicleName};
 use crossterm::cursor::Show;
 use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
@@ -20,7 +20,8 @@ use ratatui::style::Color;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 use tracing_subscriber::fmt::MakeWriter;
 
-use self::view::View;
+use self::view::{View, Views};
+use super::crew::Crew;
 use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::{Content, Message};
@@ -39,15 +40,18 @@ pub(super) struct Screen {
     /// Not dropped: it would panic if the terminal is gone, to say that the cursor could not be shown.
     terminal: ManuallyDrop<Terminal<CrosstermBackend<Stderr>>>,
     area: Rect,
-    view: View,
+    views: Views,
+    crew: Crew,
     warnings: Warnings,
     prompt: PromptLine,
 }
 
 impl Screen {
-    /// Takes over the terminal; `None` if it is too small or does not support it.
+    /// Takes over the terminal for the vehicles of a crew, with the limits of each; `None` if it is too small or does not
+    /// support it.
     pub(super) fn start(
-        limits: &FlightLimits,
+        limits: impl IntoIterator<Item = FlightLimits>,
+        crew: Crew,
         warnings: &Warnings,
         prompt: PromptLine,
     ) -> Option<Self> {
@@ -65,30 +69,41 @@ impl Screen {
             leave();
             before(panic);
         }));
-        let mut screen =
-            Self { terminal, area, view: View::new(limits), warnings: warnings.clone(), prompt };
+        let views = limits.into_iter().map(|limits| View::new(&limits));
+        let views = Views { all: crew.names().zip(views).collect(), shown: 0 };
+        let mut screen = Self { terminal, area, views, crew, warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)
     }
 
     /// Adds a line to the list of events.
     pub(super) fn print_line(&mut self, line: &str) {
-        self.view.print_line(line);
+        for (_, view) in &mut self.views.all {
+            view.print_line(line);
+        }
         self.draw();
     }
 
     /// Adds a warning.
     pub(super) fn warn(&mut self, line: &str) {
-        self.view.warn(&format!("warning: {line}"));
+        self.warn_all(&format!("warning: {line}"));
         self.draw();
     }
 
     /// Displays a message of the flight.
     pub(super) fn show(&mut self, message: &Message) {
         for warning in self.warnings.take() {
-            self.view.warn(&warning);
+            self.warn_all(&warning);
         }
-        self.view.take_in(message);
+        let own = |(name, _): &&mut (VehicleName, View)| *name == message.vehicle;
+        let warned =
+            self.views.all.iter_mut().find(own).and_then(|(_, view)| view.take_in(message));
+        // Whatever is shown, warnings of the others are.
+        if let Some(warning) = warned {
+            let line = format!("{}: {warning}", message.vehicle);
+            let others = self.views.all.iter_mut().filter(|(name, _)| *name != message.vehicle);
+            others.for_each(|(_, view)| view.warn(&line));
+        }
         // Changes between two status messages need no redraw of their own.
         if matches!(message.content, Content::Telemetry(_, Telemetry::Status(_), _)) {
             self.draw();
@@ -97,12 +112,20 @@ impl Screen {
 
     /// Restores the terminal; returns the warnings, so that they can be printed again.
     pub(super) fn end(self) -> Vec<String> {
-        self.view.warnings()
+        self.views.shown().warnings()
+    }
+
+    fn warn_all(&mut self, line: &str) {
+        self.views.all.iter_mut().for_each(|(_, view)| view.warn(line));
     }
 
     fn draw(&mut self) {
-        self.view.prompt = self.prompt.shown();
-        self.view.answer = self.prompt.answer();
+        self.views.shown = self.crew.watched();
+        let shown = self.views.shown;
+        if let Some((_, view)) = self.views.all.get_mut(shown) {
+            view.prompt = self.prompt.shown();
+            view.answer = self.prompt.answer();
+        }
         // The system signals the flight when the terminal is gone.
         if let Ok(area) = area()
             && area != self.area
@@ -110,7 +133,7 @@ impl Screen {
             self.area = area;
             _ = self.terminal.resize(area);
         }
-        _ = self.terminal.draw(|frame| view::draw(frame, &self.view));
+        _ = self.terminal.draw(|frame| view::draw(frame, &self.views));
     }
 }
 
@@ -203,10 +226,10 @@ mod tests {
         view.answer = Some(format!(":gotto 1 1\n{error}"));
         view.warn("press Enter within 2 s to cut the motors: the drone will fall");
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
         insta::assert_snapshot!(terminal.backend());
         view.answer = Some(typed::parse("help", &FlightLimits::default()).unwrap_err().to_string());
-        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
         let shown = terminal.backend().to_string();
         for word in ["load FILE", "(after an emergency)", "setMaxControl", "landOnTag"] {
             assert!(shown.contains(word), "{word}\n{shown}");
@@ -214,7 +237,7 @@ mod tests {
         assert!(!shown.contains("\\u{a}"), "{shown}");
         for (columns, rows) in [(1, 1), (20, 5)] {
             let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-            terminal.draw(|frame| draw(frame, &view)).unwrap();
+            terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
         }
     }
 

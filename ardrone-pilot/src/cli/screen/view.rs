@@ -6,8 +6,11 @@ use std::time::Duration;
 use autopilot::agent::WARNING_BATTERY_PERCENT;
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, ManualControl, NotReady, Phase, RestsOn, Status, Telemetry};
+use autopilot::vehicle::{
+    FlightEvent, ManualControl, NotReady, Phase, RestsOn, Status, Telemetry, VehicleName,
+};
 use diagnostic::{printable, printable_lines};
+use kinematics::Pose;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -36,9 +39,12 @@ const LEAST_GAUGES: usize = 5;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
+const OTHER: Color = Color::Magenta;
+/// Navdata older than this are told of.
+const STALE: Duration = Duration::from_millis(300);
 
 /// State of the display.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct View {
     steps: Vec<String>,
     /// Reasons not to take off.
@@ -90,21 +96,26 @@ impl View {
         warnings.map(|(text, _)| text.clone()).collect()
     }
 
-    pub(super) fn take_in(&mut self, message: &Message) {
-        match &message.content {
-            Content::Realtime(realtime) => self.print_line(&realtime.to_string()),
+    /// Returns what was warned of.
+    pub(super) fn take_in(&mut self, message: &Message) -> Option<String> {
+        let (line, warns) = match &message.content {
+            Content::Realtime(realtime) => (printable(&realtime.to_string()).into_owned(), false),
             Content::Trouble(at, trouble) => {
-                let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
-                remember(&mut self.events, (line, true));
+                (format!("{:6.1} s {trouble}", at.as_secs_f64()), true)
             }
             Content::Telemetry(at, telemetry, ticks) => {
                 self.ticks = *ticks;
-                self.tell(*at, telemetry);
+                let (text, warns) = self.tell(*at, telemetry)?;
+                (format!("{:6.1} s {}", at.as_secs_f64(), printable(&text)), warns)
             }
-        }
+        };
+        let warned = warns.then(|| line.clone());
+        remember(&mut self.events, (line, warns));
+        warned
     }
 
-    fn tell(&mut self, at: Duration, telemetry: &Telemetry) {
+    /// What is to be said of it, and whether it is a warning.
+    fn tell(&mut self, at: Duration, telemetry: &Telemetry) -> Option<(String, bool)> {
         match telemetry {
             Telemetry::Waypoint(_) => {}
             Telemetry::Mission { steps, .. } => {
@@ -120,8 +131,7 @@ impl View {
             Telemetry::Ended(outcome, report) => {
                 let (done, steps) = (report.steps_done, report.steps);
                 let text = format!("{outcome}; {done} of {steps} steps");
-                let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
-                remember(&mut self.events, (line, *outcome != Outcome::Completed));
+                return Some((text, *outcome != Outcome::Completed));
             }
             Telemetry::Event(event) => {
                 let text = match event {
@@ -131,11 +141,22 @@ impl View {
                     }
                     other => other.to_string(),
                 };
-                let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
-                remember(&mut self.events, (line, event.warns()));
+                return Some((text, event.warns()));
             }
             Telemetry::Status(status) => self.look(at, status),
         }
+        None
+    }
+
+    /// What it does, in a few words; and whether somebody should look.
+    fn summary(&self) -> (String, bool) {
+        let Some(status) = &self.status else { return ("-".to_owned(), false) };
+        let step = status.step.map(|step| format!(" {}/{}", step + 1, status.steps));
+        let charge = status.battery_percent.map(|percent| format!(" {percent} %"));
+        let is_heard = status.navdata_age.is_some_and(|age| age <= STALE);
+        let lost = if is_heard { "" } else { " NO NAVDATA" };
+        let text = [phase(status), &step.unwrap_or_default(), &charge.unwrap_or_default(), lost];
+        (text.concat(), status.emergency || is_low(status) || !is_heard)
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
@@ -168,9 +189,54 @@ fn decision(status: &Status) -> String {
     }
 }
 
+/// The vehicles of the screen, and which of them is shown.
+#[derive(Debug)]
+pub(super) struct Views {
+    /// At least one.
+    pub(super) all: Vec<(VehicleName, View)>,
+    pub(super) shown: usize,
+}
+
+impl Views {
+    /// One vehicle alone.
+    #[cfg(test)]
+    pub(super) fn alone(view: &View) -> Self {
+        Self { all: vec![(VehicleName::default(), view.clone())], shown: 0 }
+    }
+
+    pub(super) fn shown(&self) -> &View {
+        &self.all[self.shown.min(self.all.len() - 1)].1
+    }
+
+    /// Marks and places of the others.
+    fn others(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
+        let others = self.all.iter().enumerate().filter(|(place, _)| *place != self.shown);
+        others.filter_map(|(place, (_, view))| Some(((place + 1).to_string(), view.status?.pose?)))
+    }
+
+    /// All vehicles of several, with the keys that choose them.
+    fn list(&self) -> Option<Line<'_>> {
+        if self.all.len() == 1 {
+            return None;
+        }
+        let items = self.all.iter().enumerate().map(|(place, (name, view))| {
+            let (text, ill) = view.summary();
+            let mut style = if ill { Style::new().fg(WARNING) } else { Style::new() };
+            if place == self.shown {
+                style = style.add_modifier(Modifier::REVERSED);
+            }
+            Span::styled(format!(" {} {name} {text} ", place + 1), style)
+        });
+        Some(Line::from(items.collect::<Vec<_>>()))
+    }
+}
+
 /// Draws the whole screen.
-pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
-    let [head, body, foot, keys] = Layout::vertical([
+pub(super) fn draw(frame: &mut Frame<'_>, views: &Views) {
+    let view = views.shown();
+    let list = views.list();
+    let [fleet, head, body, foot, keys] = Layout::vertical([
+        Constraint::Length(u16::from(list.is_some())),
         Constraint::Length(1),
         Constraint::Min(10),
         Constraint::Length(7),
@@ -190,8 +256,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
         Layout::vertical([length(gauges), length(table), Constraint::Min(LEAST_STEPS)]).areas(side);
     let [decisions, events] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
+    frame.render_widget(list.unwrap_or_default(), fleet);
     frame.render_widget(headline(view), head);
-    draw_map(frame, map, view);
+    draw_map(frame, map, view, &views.others().collect::<Vec<_>>());
     draw_gauges(frame, gauges, view, &about);
     tags::draw(frame, table, view.status.as_ref());
     draw_steps(frame, steps, view);
@@ -215,12 +282,19 @@ fn foot_line(view: &View) -> Paragraph<'_> {
     }
 }
 
+fn phase(status: &Status) -> &'static str {
+    if status.emergency { "EMERGENCY" } else { status.phase.name() }
+}
+
+fn is_low(status: &Status) -> bool {
+    status.battery_percent.is_some_and(|percent| percent <= WARNING_BATTERY_PERCENT)
+}
+
 /// Phase, step, battery and link on one line.
 fn headline(view: &View) -> Paragraph<'_> {
     let Some(status) = &view.status else { return Paragraph::new("looking for the drone") };
-    let phase = if status.emergency { "EMERGENCY" } else { status.phase.name() };
     let mut parts = vec![Span::styled(
-        format!(" {:.1} s  {phase} ", view.at.as_secs_f64()),
+        format!(" {:.1} s  {} ", view.at.as_secs_f64(), phase(status)),
         Style::new().add_modifier(Modifier::REVERSED),
     )];
     if let Some(step) = status.step {
@@ -232,11 +306,10 @@ fn headline(view: &View) -> Paragraph<'_> {
         parts.push(Span::raw(format!("  step {}/{}{by_hand}", step + 1, status.steps)));
     }
     let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
-    let low = status.battery_percent.is_some_and(|percent| percent <= WARNING_BATTERY_PERCENT);
-    let style = if low { Style::new().fg(WARNING) } else { Style::new() };
+    let style = if is_low(status) { Style::new().fg(WARNING) } else { Style::new() };
     parts.push(Span::styled(format!("  battery {charge}"), style));
     let (link, style) = match status.navdata_age {
-        Some(age) if age > Duration::from_millis(300) => {
+        Some(age) if age > STALE => {
             let text = format!("  NO NAVDATA for {:.1} s", age.as_secs_f64());
             (text, Style::new().fg(WARNING))
         }
@@ -250,15 +323,16 @@ fn headline(view: &View) -> Paragraph<'_> {
     Paragraph::new(Line::from(parts))
 }
 
-/// Map from above: fence, flown path, drone with its heading, target.
-fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
+/// Map from above: fence, flown path, drone with its heading, target, other vehicles.
+fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View, others: &[(String, Pose)]) {
     let pose = view.status.and_then(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
     let places = view
         .flown_path
         .places_m()
         .map(|[x_m, y_m, _]| (x_m, y_m))
-        .chain(target.map(|target| (target.x_m, target.y_m)));
+        .chain(target.map(|target| (target.x_m, target.y_m)))
+        .chain(others.iter().map(|(_, pose)| (pose.x_m, pose.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     for place in places.chain(tags::places_m(view.status.as_ref())) {
         x = (x.0.min(place.0), x.1.max(place.0));
@@ -284,6 +358,10 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
             context.draw(&Points { coords: &trail, color: Color::DarkGray });
             context.print(0.0, 0.0, "·");
             tags::mark(context, view.status.as_ref());
+            for (mark, pose) in others {
+                let style = Style::new().fg(OTHER).add_modifier(Modifier::BOLD);
+                context.print(pose.x_m, pose.y_m, Span::styled(mark.clone(), style));
+            }
             if let Some(target) = target {
                 context.print(target.x_m, target.y_m, Span::styled("o", Style::new().fg(TARGET)));
             }

@@ -72,12 +72,12 @@ fn the_screen_shows_the_flight() {
     tell(Duration::from_secs(3), Telemetry::Event(started));
     tell(Duration::from_secs(4), Telemetry::Event(FlightEvent::LinkLost));
     let mut terminal = Terminal::new(TestBackend::new(90, 26)).unwrap();
-    terminal.draw(|frame| draw(frame, &view)).unwrap();
+    terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
     insta::assert_snapshot!(terminal.backend());
     // Any size must be drawn without a panic.
     for (columns, rows) in [(1, 1), (20, 5), (300, 80)] {
         let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
     }
 }
 
@@ -103,14 +103,14 @@ fn tags_have_a_table_and_marks_on_eighty_columns() {
     let (at, status) = (Duration::from_secs(3), Telemetry::Status(status));
     view.take_in(&message(at, status, TickHealth::default()));
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-    terminal.draw(|frame| draw(frame, &view)).unwrap();
+    terminal.draw(|frame| draw(frame, &Views::alone(&view))).unwrap();
     insta::assert_snapshot!(terminal.backend());
 }
 
 /// Words of the screen: of what is cut in the middle of a word, another one is left.
 fn words(view: &View, columns: u16, rows: u16) -> BTreeSet<String> {
     let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-    terminal.draw(|frame| draw(frame, view)).unwrap();
+    terminal.draw(|frame| draw(frame, &Views::alone(view))).unwrap();
     let shown = terminal.backend().to_string();
     // The map is drawn with dots.
     let is_drawn =
@@ -156,4 +156,21 @@ fn on_eighty_columns_no_word_is_cut() {
     for word in ["uncertainty", "CONTRADICTED:", "hand", "control:altitude_max", "1234"] {
         assert!(narrow.contains(word), "{word}: {narrow:?}");
     }
+}
+
+/// Each has its number on the map and in the list; one is shown in full, and warnings of the others reach it.
+#[test]
+fn a_fleet_is_shown_with_one_vehicle_in_full() {
+    let named = |name: &str, share: f64| {
+        let mut view = View::new(&FlightLimits::default());
+        let status = Telemetry::Status(status(share));
+        view.take_in(&message(Duration::from_secs(9), status, TickHealth::default()));
+        (name.parse().unwrap(), view)
+    };
+    let mut views = Views { all: vec![named("left", -1.0), named("right", 0.2)], shown: 1 };
+    let lost = Status { navdata_age: Some(Duration::from_secs(2)), ..status(-1.0) };
+    views.all[0].1.status = Some(lost);
+    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+    terminal.draw(|frame| draw(frame, &views)).unwrap();
+    insta::assert_snapshot!(terminal.backend());
 }
