@@ -1,4 +1,5 @@
 //! What a tick costs a vehicle among others, beside one that is alone: measured side by side in simulated time.
+#![expect(clippy::disallowed_methods, reason = "it measures")]
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};

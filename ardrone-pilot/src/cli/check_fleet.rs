@@ -149,18 +149,16 @@ impl fmt::Display for Report<'_> {
         }
         for meeting in self.conflicts() {
             let [a, b] = meeting.who.map(|number| self.member(number).config.name);
-            write!(
+            let together = match finite(meeting.together_m) {
+                Some(together_m) => format!("never nearer than {together_m:.2} m"),
+                None => "never in the air at the same time".to_owned(),
+            };
+            writeln!(
                 f,
-                "{a} and {b}: {:.2} m from each other at {} as planned",
+                "{a} and {b}: {:.2} m from each other at {} as planned; kept apart, {together}",
                 meeting.alone_m,
                 seconds(meeting.at)
             )?;
-            match finite(meeting.together_m) {
-                Some(together_m) => {
-                    writeln!(f, "; kept apart, never nearer than {together_m:.2} m")?
-                }
-                None => writeln!(f, "; kept apart, never in the air at the same time")?,
-            }
         }
         for member in self.short() {
             let name = self.member(member.number).config.name;

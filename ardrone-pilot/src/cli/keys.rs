@@ -193,7 +193,8 @@ fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &At
             match keymap.action(start.elapsed(), unshifted(key)) {
                 Some(Action::Type) => prompt.open(),
                 Some(Action::Choose(place)) => {
-                    if crew.choose(place) {
+                    let is_there = crew.choose(place);
+                    if is_there {
                         answers.show_answer(format!("orders are for {crew}"));
                     }
                 }

@@ -14,7 +14,7 @@ use crate::flight::{Content, Message};
 /// Interval of status lines in plain mode.
 const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
 /// Navdata older than this are told of.
-const STALE: Duration = Duration::from_millis(300);
+pub(super) const STALE: Duration = Duration::from_millis(300);
 
 /// Prints events as lines, and the status on a line that is overwritten, or in plain mode as one line per
 /// second. Everything goes to standard error, because it is meant for people.
@@ -120,7 +120,7 @@ impl Progress {
         watched.status = if is_alone {
             status_line(at, status)
         } else {
-            format!("{} {}", watched.name, short_status(status))
+            format!("{} {}", watched.name, in_short(status))
         };
         let all = || self.vehicles.iter().map(|watched| watched.status.as_str());
         let line = self.prompt.shown().unwrap_or_else(|| all().collect::<Vec<_>>().join(" | "));
@@ -150,22 +150,19 @@ impl Watched {
 }
 
 /// What matters most of one vehicle among others.
-fn short_status(status: &Status) -> String {
-    let mut text = phase(status).to_owned();
-    if let Some(step) = status.step {
-        text += &format!(" {}/{}", step + 1, status.steps);
-    }
-    match status.navdata_age {
-        Some(age) if age <= STALE => {}
-        _ => text += " NO NAVDATA",
-    }
-    if let Some(battery_percent) = status.battery_percent {
-        text += &format!(" {battery_percent} %");
-    }
-    text
+pub(super) fn in_short(status: &Status) -> String {
+    let step = status.step.map(|step| format!(" {}/{}", step + 1, status.steps));
+    let charge = status.battery_percent.map(|percent| format!(" {percent} %"));
+    let lost = if is_heard(status) { "" } else { " NO NAVDATA" };
+    [phase(status), &step.unwrap_or_default(), &charge.unwrap_or_default(), lost].concat()
 }
 
-fn phase(status: &Status) -> &'static str {
+/// Whether its navdata are not too old.
+pub(super) fn is_heard(status: &Status) -> bool {
+    status.navdata_age.is_some_and(|age| age <= STALE)
+}
+
+pub(super) fn phase(status: &Status) -> &'static str {
     if status.emergency { "EMERGENCY" } else { status.phase.name() }
 }
 

@@ -157,7 +157,7 @@ fn member(
     Ok(Member { settings, config, plan, drone: vehicle.address(), video_port: vehicle.video_port })
 }
 
-fn plan(path: &PathBuf, settings: &Settings, config: &VehicleConfig) -> Result<Plan, FleetError> {
+fn plan(path: &Path, settings: &Settings, config: &VehicleConfig) -> Result<Plan, FleetError> {
     let text = read("the plan", path)?;
     let surveyed = settings.surveyed_tags();
     let tags = surveyed.as_deref().map_or(TagUse::Off, TagUse::On);

@@ -19,6 +19,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
+use super::super::progress::{STALE, in_short, is_heard, phase};
 use super::{WARNING, tags, texts};
 use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
@@ -40,8 +41,6 @@ const LEAST_GAUGES: usize = 5;
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
 const OTHER: Color = Color::Magenta;
-/// Navdata older than this are told of.
-const STALE: Duration = Duration::from_millis(300);
 
 /// State of the display.
 #[derive(Debug, Clone)]
@@ -151,12 +150,7 @@ impl View {
     /// What it does, in a few words; and whether somebody should look.
     fn summary(&self) -> (String, bool) {
         let Some(status) = &self.status else { return ("-".to_owned(), false) };
-        let step = status.step.map(|step| format!(" {}/{}", step + 1, status.steps));
-        let charge = status.battery_percent.map(|percent| format!(" {percent} %"));
-        let is_heard = status.navdata_age.is_some_and(|age| age <= STALE);
-        let lost = if is_heard { "" } else { " NO NAVDATA" };
-        let text = [phase(status), &step.unwrap_or_default(), &charge.unwrap_or_default(), lost];
-        (text.concat(), status.emergency || is_low(status) || !is_heard)
+        (in_short(status), status.emergency || is_low(status) || !is_heard(status))
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
@@ -280,10 +274,6 @@ fn foot_line(view: &View) -> Paragraph<'_> {
         )
         .style(Style::new().add_modifier(Modifier::DIM)),
     }
-}
-
-fn phase(status: &Status) -> &'static str {
-    if status.emergency { "EMERGENCY" } else { status.phase.name() }
 }
 
 fn is_low(status: &Status) -> bool {
