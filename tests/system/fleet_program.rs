@@ -1,6 +1,6 @@
 //! The program that flies a fleet: several vehicles of one process, each with its simulated drone.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::UdpSocket;
 use std::path::Path;
@@ -20,15 +20,15 @@ struct Files(tempfile::TempDir);
 impl Files {
     fn new(vehicles: &[(&str, f64, &str)]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let mut fleet = "[fleet]\nname = \"test\"\n".to_owned();
+        let mut fleet = vec!["[fleet]\nname = \"test\"".to_owned()];
         for (name, x_m, plan) in vehicles {
-            fleet += &format!("[[vehicle]]\nname = \"{name}\"\nstart = [{x_m:?}, 0.0, 0]\n");
+            fleet.push(format!("[[vehicle]]\nname = \"{name}\"\nstart = [{x_m:?}, 0.0, 0]"));
             if !plan.is_empty() {
-                fleet += &format!("plan = \"{name}.txt\"\n");
+                fleet.push(format!("plan = \"{name}.txt\""));
                 std::fs::write(folder.path().join(format!("{name}.txt")), plan).unwrap();
             }
         }
-        std::fs::write(folder.path().join("fleet.toml"), fleet).unwrap();
+        std::fs::write(folder.path().join("fleet.toml"), fleet.join("\n")).unwrap();
         Self(folder)
     }
 
@@ -184,10 +184,10 @@ fn a_signal_lands_all() {
         fleet.until(|object| object["vehicle"] == name && object["airborne"] == true);
     }
     signal(&fleet.child, "-INT");
-    let mut landed = BTreeMap::new();
+    let mut landed = BTreeSet::new();
     while landed.len() < 2 {
         let end = fleet.until(|object| object["type"] == "landed");
-        landed.insert(end["vehicle"].as_str().unwrap().to_owned(), ());
+        landed.insert(end["vehicle"].as_str().unwrap().to_owned());
     }
     assert_eq!(fleet.end(), Some(130));
 }
@@ -210,11 +210,10 @@ fn who_does_not_hear_all_others_stays_on_the_ground() {
     // The other one's drone is at a port where nobody answers.
     let nobody = "drone = \"127.0.0.1\"\nat_port = 9\nnavdata_port = 9\ncontrol_port = 9\n";
     let mut parts = text.split("plan = ");
-    let mut put = parts.next().unwrap().to_owned();
-    for (part, drone) in parts.zip([at.as_str(), nobody]) {
-        put += &format!("{drone}plan = {part}");
-    }
-    std::fs::write(files.path(), put).unwrap();
+    let begin = parts.next().unwrap();
+    let parts = parts.zip([at.as_str(), nobody]);
+    let parts: Vec<String> = parts.map(|(part, drone)| format!("{drone}plan = {part}")).collect();
+    std::fs::write(files.path(), begin.to_owned() + &parts.concat()).unwrap();
     let mut pilot = program("ardrone-pilot");
     let output = pilot.args(["fleet", &files.path(), "--no-log", "--json"]).output().unwrap();
     let objects = objects(&output);
