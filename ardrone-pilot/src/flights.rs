@@ -22,8 +22,10 @@ pub(crate) struct RecordedFlight {
     pub(crate) outcome: Option<(bool, String)>,
     /// Charge at the beginning and at the end.
     pub(crate) battery_percent: Option<(u32, u32)>,
-    /// Largest distance from the start.
+    /// Largest distance from where it began.
     pub(crate) furthest_m: f64,
+    /// Where that was: right and forward.
+    began_m: Option<[f64; 2]>,
 }
 
 /// The flights of a recording, in their order. [`Log::read_decisions`] is enough for them.
@@ -71,7 +73,15 @@ impl RecordedFlight {
     fn new(plan: &str, at: Duration) -> Self {
         let air = (at, at);
         let plan = plan.to_owned();
-        Self { plan, air, ended: None, outcome: None, battery_percent: None, furthest_m: 0.0 }
+        Self {
+            plan,
+            air,
+            ended: None,
+            outcome: None,
+            battery_percent: None,
+            furthest_m: 0.0,
+            began_m: None,
+        }
     }
 
     fn extend(&mut self, at: Duration, tick: &Tick) {
@@ -81,7 +91,8 @@ impl RecordedFlight {
             self.battery_percent = Some((first, charge));
         }
         if let Some(at) = tick.estimate {
-            self.furthest_m = self.furthest_m.max(at.x_m.hypot(at.y_m));
+            let [x_m, y_m] = *self.began_m.get_or_insert([at.x_m, at.y_m]);
+            self.furthest_m = self.furthest_m.max((at.x_m - x_m).hypot(at.y_m - y_m));
         }
     }
 

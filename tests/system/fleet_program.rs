@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use ardrone_pilot::recording::Log;
 use ardrone_pilot::replay::Replay;
+use ardrone_pilot::report::html;
 use serde_json::{Value, json};
 
 use crate::browser::Live;
@@ -98,6 +99,10 @@ fn two_that_change_places_keep_apart_and_their_flights_are_replayed() {
         assert!(named, "{path:?}");
         let replay = Replay::new(&Log::read(&std::fs::read(&path).unwrap()).unwrap()).unwrap();
         assert!(replay.is_same(), "{replay}");
+        let log = Log::read(&std::fs::read(&path).unwrap()).unwrap();
+        let page = html(&log, &[]).unwrap();
+        assert!(page.contains(&format!("\"system\":{}", if name == "left" { 2 } else { 1 })));
+        assert!(page.contains(&format!("\"start\":[{:?},0.0]", -x_m)), "where it stood");
     }
     assert_eq!(objects.last().unwrap(), &json!({ "type": "fleet_end", "exit_status": 0 }));
 }

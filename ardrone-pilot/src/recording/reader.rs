@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use autopilot::plan::ZOrigin;
+use autopilot::separation;
 use autopilot::vehicle::VehicleName;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -187,6 +188,14 @@ impl Log {
     pub fn tags(&self) -> impl Iterator<Item = (Duration, &Tags)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Tags(tags) => Some((*at, tags)),
+            _ => None,
+        })
+    }
+
+    /// What other vehicles told of themselves, with the time at which it was heard.
+    pub fn neighbours(&self) -> impl Iterator<Item = (Duration, separation::Neighbour)> {
+        self.entries.iter().filter_map(|(at, entry)| match entry {
+            Entry::Neighbour(neighbour) => Some((*at, neighbour.heard())),
             _ => None,
         })
     }

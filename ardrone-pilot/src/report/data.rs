@@ -8,9 +8,11 @@ use autopilot::agent::plan_text;
 use autopilot::plan::Border;
 use autopilot::vehicle::VehicleConfig;
 use diagnostic::{printable, printable_lines};
+use kinematics::Pose;
 use serde::Serialize;
 
 use super::events::{Event, events};
+use super::others::{Other, others};
 use super::rows::{Row, rows};
 use super::series::Scales;
 use super::spans::{Strip, beliefs, states};
@@ -37,6 +39,8 @@ pub(super) struct Flight<'a> {
     pub(super) scales: Scales,
     /// The fence, if the recorded settings can be read.
     pub(super) fence: Option<Border>,
+    /// Where the drone stood at its first start.
+    pub(super) start_m: [f64; 2],
     /// What was believed of each quantity.
     pub(super) beliefs: Vec<Strip>,
     /// What the drone said of itself.
@@ -51,6 +55,8 @@ pub(super) struct Flight<'a> {
     pub(super) events: Vec<Event>,
     /// Seconds, and the tags that were known then.
     pub(super) tags: Vec<(f64, &'a Tags)>,
+    /// Other vehicles.
+    pub(super) others: Vec<Other>,
     /// Times of the first and of the last tick, in seconds since the recording's start.
     pub(super) begin_s: f64,
     pub(super) end_s: f64,
@@ -107,16 +113,19 @@ impl<'a> Flight<'a> {
         let config = Settings::parse("pilot.toml", &log.settings).ok();
         let config = config.map(|settings| settings.pilot_config(log.z_origin));
         let events = events(log, span, &rows, &beliefs, &states);
+        let at = |pose: Pose| [pose.x_m, pose.y_m];
         let mut flight = Self {
             bands: Vec::new(),
             decisions: Vec::new(),
             plans: BTreeMap::new(),
             scales: scales(config.as_ref(), &rows),
+            start_m: config.as_ref().and_then(|config| config.limits.start).map_or([0.0; 2], at),
             fence: config.map(|config| config.limits.border),
             beliefs,
             states,
             events,
             tags: tags(log, span),
+            others: others(log, span),
             begin_s,
             end_s,
             rows,

@@ -3,6 +3,7 @@
 mod data;
 mod events;
 mod findings;
+mod others;
 mod page;
 mod pictures;
 mod rows;

@@ -1,7 +1,7 @@
 "use strict";
 // Draws the plots over one time axis, which can be zoomed and moved, and shows the moment under the cursor everywhere: its
 // values, its place on the map, what the camera saw, and what the agent decided.
-const { decisions, plans, tags, series, fence, bands, events, beliefs, states, late, begin, end } = JSON.parse(
+const { decisions, plans, tags, others, start, series, fence, bands, events, beliefs, states, late, begin, end } = JSON.parse(
   document.getElementById("decided").textContent,
 );
 const { times } = series;
@@ -288,7 +288,7 @@ function show(seconds) {
 const MUCH_LARGER = 4;
 const CALM = 0.05; // less wind has no direction, in m/s²
 
-// The map: the way, the part of it that is flown at the cursor, the drone, targets, tags, the fence, and the wind at the cursor.
+// The map: the way, the part of it that is flown at the cursor, the drone, other vehicles, targets, tags, the fence, and the wind at the cursor.
 const map = document.getElementById("map");
 const [right, forward, heading] = series.track;
 let scale = null;
@@ -298,7 +298,8 @@ function drawMap() {
   map.setAttribute("height", height);
   map.replaceChildren();
   const seen = tags.flatMap((moment) => moment.tags);
-  const all = (values, other, key) => [0, ...values.filter((value) => value !== null), ...other, ...seen.map((tag) => tag[key])];
+  const heard = others.flatMap(({ places }) => places);
+  const all = (values, other, key) => [0, ...values.filter((value) => value !== null), ...other, ...seen.map((tag) => tag[key]), ...heard.map((at) => at[key === "x_m" ? 1 : 2])];
   const extent = (list) => list.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0]);
   let [across, along] = [extent(all(right, series.targets.map(([at]) => at), "x_m")), extent(all(forward, series.targets.map(([, at]) => at), "y_m"))];
   const corners = fence ? fence.corners : [];
@@ -325,8 +326,12 @@ function drawMap() {
     svg("path", { class: "fence", d: `M${border.join("L")}Z` }, map);
     svg("text", { x: 6, y: height - 20, class: "fencetext" }, map, `dashed: the fence, ${fence.text}${seesFence ? "" : ", beyond this map"}`);
   }
-  const [hx, hy] = place(0, 0);
+  const [hx, hy] = place(...start);
   svg("path", { class: "home", d: `M${hx} ${hy - 6}L${hx + 6} ${hy + 5}H${hx - 6}Z` }, map);
+  for (const { places } of others) {
+    const way = places.map(([, px, py]) => place(px, py).map((at) => at.toFixed(1)).join(" "));
+    svg("path", { class: "heard", d: `M${way.join("L")}` }, map);
+  }
   svg("path", { class: "way", d: trail(times.length - 1) }, map);
   svg("path", { class: "flown", d: "" }, map);
   series.targets.forEach(([px, py]) => svg("circle", { class: "aim", cx: place(px, py)[0], cy: place(px, py)[1], r: 5 }, map));
@@ -351,13 +356,27 @@ function drawPlace() {
   if (!scale) return;
   const index = indexAt(times, marked);
   map.querySelector(".flown").setAttribute("d", trail(index));
-  map.querySelectorAll(".tag, .drone, .wind").forEach((old) => old.remove());
+  map.querySelectorAll(".tag, .drone, .wind, .vehicle").forEach((old) => old.remove());
   drawTags();
+  drawOthers();
   drawWind(index);
   if (right[index] === null || forward[index] === null) return;
   const [px, py] = scale.place(right[index], forward[index]);
   const turn = `translate(${px} ${py}) rotate(${heading[index] ?? 0})`;
   svg("path", { class: "drone", d: "M0-11L8 8L0 4L-8 8Z", transform: turn }, map);
+}
+
+// Where the other vehicles were at the cursor, as this one had heard by then, with the numbers of their MAVLink systems.
+function drawOthers() {
+  for (const { system, places } of others) {
+    const later = places.findIndex(([at]) => at > marked);
+    const then = places[(later < 0 ? places.length : later) - 1];
+    if (!then) continue;
+    const [cx, cy] = scale.place(then[1], then[2]);
+    const group = svg("g", { class: "vehicle" }, map);
+    svg("circle", { cx, cy, r: 5 }, group);
+    svg("text", { x: cx, y: cy - 9, "text-anchor": "middle" }, group, `vehicle ${system}`);
+  }
 }
 
 // An arrow with the wind, and the side from which it comes, in the frame of the plan.

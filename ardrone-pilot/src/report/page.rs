@@ -70,7 +70,7 @@ pub(super) fn html(
         "<noscript><p>The plots and the map are drawn by a script.</p></noscript>\n\
          <div class=\"columns\">\n<div class=\"side\">\n\
          <section class=\"card mapcard\"><h2>Map</h2>\n<div class=\"map\"><svg id=\"map\" role=\"img\" \
-         aria-label=\"the way from above: the part flown at the cursor, the drone, targets, tags, the fence, and the wind\"></svg></div>\n\
+         aria-label=\"the way from above: the part flown at the cursor, the drone, other vehicles, targets, tags, the fence, and the wind\"></svg></div>\n\
          {tag_text}</section>\n\
          <section class=\"card whycard\"><h2>At the cursor</h2>\n{picture}<div id=\"moment\"></div></section>\n\
          </div>\n<div id=\"plots\">\n<div id=\"axis\"><div class=\"plot\" id=\"overview\"></div>\n\
@@ -124,6 +124,8 @@ fn decided(flight: &Flight<'_>) -> serde_json::Value {
         "decisions": flight.decisions,
         "plans": flight.plans,
         "tags": tags,
+        "others": flight.others,
+        "start": flight.start_m,
         "late": late.as_slice(),
     })
 }
@@ -204,7 +206,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
         fact("battery voltage", format!("{begin:.2} to {end:.2} V"));
     }
     let estimates = || flight.ticks().filter_map(|(_, tick)| tick.estimate);
-    let away = estimates().map(|at| at.x_m.hypot(at.y_m));
+    let [x_m, y_m] = estimates().next().map_or([0.0; 2], |at| [at.x_m, at.y_m]);
+    let away = estimates().map(|at| (at.x_m - x_m).hypot(at.y_m - y_m));
     fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
     if let Some(last) = estimates().next_back() {
         let uncertainty = format!("uncertainty at the end, {}", last.rests_on());

@@ -299,7 +299,7 @@ fn thinned<'a>(
 }
 
 /// A number of a few digits; `None` if it cannot be one that was measured.
-fn short(value: f64) -> Option<f64> {
+pub(super) fn short(value: f64) -> Option<f64> {
     (value.abs() < LARGEST).then(|| (value * 1e3).round() / 1e3)
 }
 
