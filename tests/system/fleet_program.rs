@@ -353,6 +353,9 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
         let (status, error) = check(&path);
         assert!(status == Some(20) && error.contains(said), "{error}");
     }
+    let many = "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\n".repeat(300);
+    std::fs::write(&path, many).unwrap();
+    assert!(check(&path).1.contains("a fleet has 1 to 32 vehicles, and this one 300"));
     std::fs::write(&path, two("b", 2.0)).unwrap();
     assert!(check(&path).1.contains("hear each other's ultrasound"));
     let output = program("ardrone-pilot").arg("fleet").arg(&path).output().unwrap();

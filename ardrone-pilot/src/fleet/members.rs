@@ -107,7 +107,8 @@ impl Fleet {
         let folder = path.parent().unwrap_or(Path::new(""));
         let config = written.fleet.config.as_ref().map(|config| folder.join(config));
         let settings = shared_settings(&written, config.as_deref())?;
-        let findings = findings(&written, &settings, text.trim_end().len(), z_origin);
+        let config_of_all = settings.pilot_config(z_origin);
+        let findings = findings(&written, &config_of_all, text.trim_end().len());
         let findings = Diagnostics::new([SourceText { name, text }], findings);
         if findings.has_errors() {
             let mut list = findings.clone().into_vec();
@@ -170,20 +171,15 @@ fn systems(written: &Written) -> impl Iterator<Item = u8> + '_ {
 }
 
 /// All that is wrong or unwise, in the order of the file. `end` is the end of its text.
-fn findings(
-    written: &Written,
-    settings: &Settings,
-    end: usize,
-    z_origin: ZOrigin,
-) -> Vec<Diagnostic> {
-    let config = settings.pilot_config(z_origin);
-    let mut findings = Vec::new();
+fn findings(written: &Written, config: &VehicleConfig, end: usize) -> Vec<Diagnostic> {
     let count = written.vehicle.len();
     if count == 0 || count > MOST {
         let message = format!("a fleet has 1 to {MOST} vehicles, and this one {count}");
         let vehicle = "write a table [[vehicle]] for each, with name, start and plan";
-        findings.push(Diagnostic::error(message, end..end).help(vehicle));
+        // More of them would have no numbers.
+        return vec![Diagnostic::error(message, end..end).help(vehicle)];
     }
+    let mut findings = Vec::new();
     let systems: Vec<u8> = systems(written).collect();
     for (number, vehicle) in written.vehicle.iter().enumerate() {
         let others = || written.vehicle.iter().zip(&systems).take(number);
@@ -199,7 +195,7 @@ fn findings(
             let help = "give each vehicle its own `system`, 1 to 250, or none";
             findings.push(Diagnostic::error(message, span).help(help));
         }
-        findings.extend(start_findings(vehicle, &config, others().map(|(other, _)| other)));
+        findings.extend(start_findings(vehicle, config, others().map(|(other, _)| other)));
     }
     findings
 }
