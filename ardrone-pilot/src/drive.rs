@@ -10,7 +10,7 @@ use autopilot::Vehicle;
 use autopilot::vehicle::{
     Input, Operator, OperatorOrder, Output, Refused, Stage, TICK, Telemetry, Transmit,
 };
-use mock_drone::{Message, World, WorldConfig};
+use mock_drone::{Message, Presence, World, WorldConfig};
 
 /// What a vehicle is connected to, with its clock.
 pub trait Surroundings {
@@ -187,6 +187,16 @@ pub(crate) fn handle(
     handled
 }
 
+/// Brings simulated drones into one air, at one time: each is told where all others are.
+pub fn share_air<'a>(drivers: impl IntoIterator<Item = &'a mut Driver<Simulated>>) {
+    let mut drivers: Vec<_> = drivers.into_iter().collect();
+    let present: Vec<Presence> = drivers.iter().map(|driver| driver.world().presence()).collect();
+    for (number, driver) in drivers.iter_mut().enumerate() {
+        let others = present.iter().enumerate().filter(|(other, _)| *other != number);
+        driver.meet(others.map(|(_, other)| *other));
+    }
+}
+
 /// Interval of handling navdata in simulated time; the drone's own steps are finer.
 pub const POLL: Duration = Duration::from_millis(5);
 
@@ -247,6 +257,11 @@ impl Driver<Simulated> {
     /// The drone and the air around it.
     pub fn world(&self) -> &World {
         &self.surroundings.world
+    }
+
+    /// Tells the drone of all others in its air.
+    pub fn meet(&mut self, others: impl IntoIterator<Item = Presence>) {
+        self.surroundings.world.meet(others);
     }
 
     /// Simulates a program that does not run: the world advances, and input is queued. Returns whether a tick

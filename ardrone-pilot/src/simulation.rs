@@ -8,7 +8,7 @@ use autopilot::vehicle::{
     CannotFly, Decision, FlightEvent, Phase, TagConfig, Telemetry, Vehicle, VehicleConfig,
 };
 use kinematics::Pose;
-use mock_drone::{FloorTag, WorldConfig};
+use mock_drone::{FloorTag, Standing, WorldConfig};
 
 use crate::drive::{Driver, Passed};
 
@@ -35,13 +35,13 @@ pub struct SimulatedFlight {
     pub warnings: Vec<(Duration, FlightEvent)>,
 }
 
-/// A world with the tags of the settings and of a plan, or with one below the start if there are none; without any
+/// A world that begins where the drone stands in the common frame, with the tags of the settings and of a plan, or with one below the start if there are none; without any
 /// if tags are not in use.
 pub fn world(config: &VehicleConfig, plan: Option<&Plan>) -> WorldConfig {
-    let mut world = WorldConfig::default();
-    let Some(TagConfig { surveyed, .. }) = &config.estimator.tags else { return world };
-    // The simulated drone's world begins where it stands.
     let start = config.estimator.start.unwrap_or_default();
+    let standing = Standing { place_m: start.place_m, heading_deg: start.heading_deg };
+    let mut world = WorldConfig { start: standing, ..WorldConfig::default() };
+    let Some(TagConfig { surveyed, .. }) = &config.estimator.tags else { return world };
     for tag in surveyed.iter().flatten().chain(plan.iter().flat_map(|plan| plan.tags())) {
         let heading_deg = tag.heading_deg.unwrap_or(0.0) - start.heading_deg;
         let [x_m, y_m] = start.seen_from_here(tag.place_m).into();

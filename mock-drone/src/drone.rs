@@ -11,6 +11,7 @@ use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Uniform};
 
+use crate::air::{Others, Presence};
 use crate::airframe::{Airframe, Profile, STEP_S};
 use crate::camera::{Camera, CameraModel, FloorTag};
 use crate::faults::{Quantity, Reported, SensorFault, SensorFaults};
@@ -142,6 +143,7 @@ impl Claims {
 pub struct Drone {
     config: DroneConfig,
     wind: Wind,
+    others: Others,
     gps_error_m: GaussMarkov,
     /// When it was switched on.
     switched_on: Duration,
@@ -204,6 +206,7 @@ impl Drone {
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
+            others: Others::new(config.seed),
             gps_error_m: GaussMarkov::settled(
                 config.gps_error_m,
                 GPS_ERROR_TIME_S,
@@ -233,11 +236,23 @@ impl Drone {
             let time = self.time();
             let thrust = self.firmware.step(time, &self.airframe);
             let contacts = self.airframe.floor_contacts();
-            self.airframe.step(thrust, self.wind.step());
+            let mut wind_m_s = self.wind.step();
+            let wash = self.others.wash(self.airframe.position_m());
+            self.airframe.set_downwash(wash.map_or(0.0, |wash| wash.down_m_s));
+            if let Some(wash) = wash {
+                wind_m_s += wash.across_m_s;
+            }
+            self.airframe.step(thrust, wind_m_s);
             self.gps_error_m.step();
             if self.firmware.phase() == Phase::Flying {
                 self.floor_contacts += self.airframe.floor_contacts() - contacts;
             }
+            let heard = if self.others.is_alone() {
+                0.0
+            } else {
+                self.others.heard(self.airframe.position_m(), self.firmware.ultrasound())
+            };
+            self.sensors.hear(heard);
             self.sensors.step(self.steps, time, &self.airframe);
             if self.steps * PICTURES.0 % PICTURES.1 < PICTURES.0 {
                 let detector = self.firmware.detector();
@@ -374,6 +389,20 @@ impl Drone {
     /// Sets the charge.
     pub fn set_battery_percent(&mut self, percent: f64) {
         self.firmware.set_battery_percent(percent);
+    }
+
+    /// How others in the air notice the drone; its place is in its own frame.
+    pub(crate) fn presence(&self) -> Presence {
+        Presence {
+            position_m: self.airframe.position_m(),
+            rotors_turn: self.firmware.turns_rotors(),
+            ultrasound: self.firmware.ultrasound(),
+        }
+    }
+
+    /// Tells of the others in the air; their places are in the drone's own frame.
+    pub(crate) fn meet(&mut self, others: impl IntoIterator<Item = Presence>) {
+        self.others.are(others);
     }
 
     /// The true state.

@@ -471,6 +471,17 @@ impl Firmware {
         self.configuration.text(VIDEO_CHANNEL) == Some(BOTTOM)
     }
 
+    /// Whether the motors are on.
+    pub(crate) fn turns_rotors(&self) -> bool {
+        matches!(self.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing)
+    }
+
+    /// The number of the ultrasound's frequency, 7 or 8.
+    pub(crate) fn ultrasound(&self) -> i64 {
+        let number = self.configuration.text("pic:ultrasound_freq");
+        number.and_then(|number| number.parse().ok()).unwrap_or_default()
+    }
+
     /// Bit rate of the video.
     #[cfg(feature = "video")]
     pub(crate) fn video_kbit_s(&self) -> u32 {

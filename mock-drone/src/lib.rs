@@ -6,6 +6,8 @@
 //! - [`sensors`]: measurements of the motion: noise, bias, delay.
 //! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
 //! - [`World`]: a drone and its radio link, with datagrams that are late or lost, and faults over time.
+//! - [`World::meet`]: other drones in the same air, as [`Presence`] describes them: the wash below a drone is felt, and two drones
+//!   within 3 m whose ultrasound has the same frequency disturb each other's heights.
 #![cfg_attr(feature = "server", doc = "- [`server`]: the drone on real sockets.")]
 #![cfg_attr(feature = "cli", doc = "- [`command_line`]: the program.")]
 //!
@@ -16,6 +18,7 @@
 //! bit. Its [`Truth`] is available to judge a flight.
 #![forbid(unsafe_code)]
 
+mod air;
 pub mod airframe;
 mod camera;
 #[cfg(feature = "cli")]
@@ -39,6 +42,7 @@ pub mod video;
 mod wind;
 mod world;
 
+pub use air::{Presence, Standing};
 pub use camera::{CameraModel, FloorTag, OrientationSign};
 pub use drone::{Drone, DroneConfig, Truth};
 pub use faults::{Quantity, SensorFault};

@@ -8,6 +8,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
+use crate::air::ForeignPulses;
 use crate::airframe::{Airframe, STEP_S, world_from_body};
 
 /// Errors of the sensors.
@@ -137,6 +138,7 @@ pub struct Sensors {
     altitude: DelayLine<f64>,
     yaw_drift_deg: f64,
     odometry_m: Vector2<f64>,
+    foreign: ForeignPulses,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -168,6 +170,7 @@ impl Sensors {
             altitude: DelayLine::new(model.attitude_delay),
             yaw_drift_deg: 0.0,
             odometry_m: Vector2::zeros(),
+            foreign: ForeignPulses::new(seed),
             model,
         }
     }
@@ -193,6 +196,11 @@ impl Sensors {
         Self { odometry_m: self.odometry_m, ..Self::new(self.model, seed) }
     }
 
+    /// Tells what share of the pulses of other drones is heard.
+    pub(crate) fn hear(&mut self, share: f64) {
+        self.foreign.heard = share;
+    }
+
     /// Samples the airframe after physics step number `step`, at time `now`.
     pub fn step(&mut self, step: u64, now: Duration, airframe: &Airframe) {
         if step.is_multiple_of(FLOW_STEPS) {
@@ -203,7 +211,9 @@ impl Sensors {
             let altitude_m = (airframe.position_m().z + noise_m).max(0.0);
             let bad = self.model.bad_echoes > 0.0 && self.random.random_bool(self.model.bad_echoes);
             let echo_m = if bad { self.random.random_range(0.3..1.2) } else { altitude_m };
-            self.altitude.push(now, echo_m);
+            if let Some(echo_m) = self.foreign.disturb(echo_m) {
+                self.altitude.push(now, echo_m);
+            }
         }
         if step.is_multiple_of(ATTITUDE_STEPS) {
             self.sample_attitude(now, airframe);

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use bytes::Bytes;
 
+use crate::air::{Presence, Standing};
 use crate::camera::FloorTag;
 use crate::drone::{Drone, DroneConfig, Truth};
 use crate::faults::{Quantity, SensorFault};
@@ -25,6 +26,8 @@ pub struct WorldConfig {
     pub scenario: Scenario,
     /// Roundels on the floor.
     pub tags: Vec<FloorTag>,
+    /// Where the drone stands in the air that it may share with others. Its own frame begins there.
+    pub start: Standing,
 }
 
 /// A message from the drone.
@@ -47,6 +50,7 @@ enum Port {
 #[derive(Debug, Clone)]
 pub struct World {
     drone: Drone,
+    start: Standing,
     up: Link<Port>,
     down: Link<()>,
     scenario: Scenario,
@@ -69,6 +73,7 @@ impl World {
         }
         Self {
             drone,
+            start: config.start,
             up: Link::new(config.link, seed).dropping_spoiled(),
             down: Link::new(config.link, seed.wrapping_add(1)),
             scenario: config.scenario.clone(),
@@ -125,6 +130,22 @@ impl World {
     pub fn receive(&mut self, now: Duration) -> Option<Message> {
         let navdata = self.down.receive(now).map(|(_, (), datagram)| Message::Navdata(datagram));
         navdata.or_else(|| self.control.take().map(Message::Control))
+    }
+
+    /// How others in the air notice the drone.
+    pub fn presence(&self) -> Presence {
+        let own = self.drone.presence();
+        Presence { position_m: self.start.in_common(own.position_m), ..own }
+    }
+
+    /// Tells of all others in the air, which are taken to stay where they are until the next call: their wash is felt below them,
+    /// and their ultrasound disturbs heights within 3 m if it has the same frequency.
+    pub fn meet(&mut self, others: impl IntoIterator<Item = Presence>) {
+        let start = self.start;
+        self.drone.meet(others.into_iter().map(|other| Presence {
+            position_m: start.seen_from_start(other.position_m),
+            ..other
+        }));
     }
 
     /// The true state.
@@ -285,13 +306,16 @@ mod tests {
         sequence: u32,
         /// Time of arrival and number of each navdata packet.
         heard: Vec<(Duration, u32)>,
+        /// The packets.
+        packets: Vec<Bytes>,
     }
 
     impl Bench {
         fn new(scenario: &str) -> Self {
             let scenario = Scenario::parse("s.txt", scenario).unwrap();
             let world = World::new(&WorldConfig { scenario, ..WorldConfig::default() });
-            let mut bench = Self { world, now: Duration::ZERO, sequence: 0, heard: Vec::new() };
+            let (heard, packets) = (Vec::new(), Vec::new());
+            let mut bench = Self { world, now: Duration::ZERO, sequence: 0, heard, packets };
             bench.world.send_wake_up(Duration::ZERO, &[1, 0, 0, 0]);
             bench.send(&Command::Config(Config::new("general:navdata_demo", "TRUE").unwrap()));
             bench
@@ -314,6 +338,7 @@ mod tests {
                 while let Some(message) = self.world.receive(self.now) {
                     if let Message::Navdata(packet) = message {
                         self.heard.push((self.now, Navdata::decode(&packet).unwrap().sequence));
+                        self.packets.push(packet);
                     }
                 }
             }
@@ -377,5 +402,68 @@ mod tests {
         bench.fly(Ref::TakeOff, 10);
         assert_eq!(bench.world.truth().phase, Phase::Flying);
         assert!(bench.heard_between(6.0, 8.0) > 25, "packets keep coming");
+    }
+
+    /// Another drone in the air, right, forward and up of the start.
+    fn other(position_m: [f64; 3], rotors_turn: bool, ultrasound: i64) -> Presence {
+        Presence { position_m: position_m.into(), rotors_turn, ultrasound }
+    }
+
+    #[test]
+    fn others_that_are_not_felt_and_not_heard_change_nothing_bit_for_bit() {
+        let flown = |others: &[Presence]| {
+            let mut bench = Bench::new("");
+            for (reference, seconds) in [(Ref::TakeOff, 8), (Ref::Land, 5)] {
+                bench.world.meet(others.iter().copied());
+                bench.fly(reference, seconds);
+            }
+            (bench.world.truth(), bench.packets)
+        };
+        let alone = flown(&[]);
+        for others in [
+            // Beside, and turning; its frequency differs.
+            [other([1.2, 0.0, 1.5], true, 7)],
+            // Above, at rest.
+            [other([0.0, 0.0, 2.0], false, 7)],
+            // Right below while it turns.
+            [other([0.0, 0.0, -0.1], true, 7)],
+            // Far away, with the same frequency.
+            [other([0.0, 3.2, 0.0], true, 8)],
+        ] {
+            assert!(flown(&others) == alone, "{others:?}");
+        }
+        for others in [[other([0.0, 0.0, 2.0], true, 7)], [other([0.0, 2.0, 0.0], true, 8)]] {
+            assert!(flown(&others) != alone, "{others:?}");
+            assert!(flown(&others) == flown(&others), "the same again");
+        }
+    }
+
+    #[test]
+    fn a_drone_under_another_sinks_and_comes_back_when_that_has_gone() {
+        let mut bench = Bench::new("");
+        bench.fly(Ref::TakeOff, 7);
+        let height_m = |bench: &Bench| bench.world.truth().position_m.z;
+        let before_m = height_m(&bench);
+        bench.world.meet([other([0.0, 0.0, 2.35], true, 7)]);
+        bench.fly(Ref::TakeOff, 6);
+        let lost_m = before_m - height_m(&bench);
+        assert!((0.2..0.7).contains(&lost_m), "{lost_m}");
+        bench.world.meet([]);
+        bench.fly(Ref::TakeOff, 6);
+        assert!((height_m(&bench) - before_m).abs() < 0.05, "{}", height_m(&bench));
+    }
+
+    #[test]
+    fn each_world_tells_its_drone_where_the_others_are_from_its_own_start() {
+        let start = Standing { place_m: nalgebra::Vector2::new(4.0, 0.0), heading_deg: 90.0 };
+        let mut world = World::new(&WorldConfig { start, ..WorldConfig::default() });
+        let presence = world.presence();
+        assert_eq!(presence, other([4.0, 0.0, 0.0], false, 8));
+        let setting = Command::Config(Config::new("pic:ultrasound_freq", "7").unwrap());
+        let mut datagram = Datagram::new();
+        datagram.push(1, &setting).unwrap();
+        world.send_at(Duration::ZERO, datagram.as_bytes());
+        world.advance(Duration::from_millis(10));
+        assert_eq!(world.presence().ultrasound, 7);
     }
 }

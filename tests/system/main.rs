@@ -16,6 +16,7 @@ mod dependencies;
 mod estimate;
 mod faults;
 mod fleet;
+mod fleet_air;
 mod fleet_program;
 mod ground_station;
 mod keyboard;

@@ -30,7 +30,7 @@ fn day(seed: u64, hard: bool, tags: &[(f64, f64)], scenario: &str) -> Simulation
     let mut pilot = VehicleConfig::default();
     pilot.estimator.tags = Some(TagConfig::default());
     Simulation {
-        world: WorldConfig { drone, link, scenario, tags },
+        world: WorldConfig { drone, link, scenario, tags, ..WorldConfig::default() },
         pilot,
         ..Simulation::default()
     }

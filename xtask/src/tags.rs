@@ -361,7 +361,7 @@ fn simulation(job: Job) -> Result<Simulation, String> {
     let mut pilot = VehicleConfig::default();
     pilot.estimator.tags = Some(TagConfig::default());
     Ok(Simulation {
-        world: WorldConfig { drone, link, scenario, tags },
+        world: WorldConfig { drone, link, scenario, tags, ..WorldConfig::default() },
         pilot,
         ..Simulation::default()
     })

@@ -7,7 +7,7 @@ use ardrone_link::DroneAddress;
 use autopilot::plan::{Plan, Step};
 use autopilot::vehicle::{Start, Telemetry, VehicleName};
 use crossbeam_channel::bounded;
-use mock_drone::server::{MockDrone, Ports};
+use mock_drone::server::{Air, MockDrone, Ports};
 use serde_json::json;
 
 use super::arguments::FlyFleet;
@@ -215,12 +215,14 @@ fn prepare<'a>(
 ) -> Result<Vec<Prepared<'a>>, CommandError> {
     let begun = since_epoch();
     let logs = (!arguments.no_log).then(|| make_folder(arguments.log.clone())).transpose()?;
+    // Simulated drones feel and disturb each other.
+    let air = Air::default();
     let mut all = Vec::new();
     for member in &fleet.members {
         let name = member.config.name;
         let mock = if arguments.mock {
             let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
-            Some(MockDrone::start(&member.world(), ports)?)
+            Some(MockDrone::start_in(&air, &member.world(), ports)?)
         } else {
             None
         };

@@ -9,7 +9,7 @@ use kinematics::Pose;
 use nalgebra::Vector2;
 
 use super::members::{Fleet, Member};
-use crate::drive::{Driver, POLL, Passed, Simulated};
+use crate::drive::{self, Driver, POLL, Passed, Simulated};
 use crate::simulation::{self, SimulatedFlight};
 
 /// Longest simulated time; no battery lasts that long.
@@ -115,10 +115,11 @@ pub fn fly(fleet: &Fleet) -> Result<SimulatedFleet, CannotFly> {
     Ok(SimulatedFleet { members: flying.into_iter().map(simulated).collect(), meetings })
 }
 
-/// Flies all until each has ended. Who has no plan stays where it stands, and is not heard.
+/// Flies all in one air until each has ended. Who has no plan stays where it stands, and is not heard.
 fn fly_together(mut flying: Vec<Flying>) -> Vec<Flying> {
     let mut now = Duration::ZERO;
     while now < LONGEST && flying.iter().any(|one| one.outcome.is_none()) {
+        drive::share_air(flying.iter_mut().map(|one| &mut one.driver));
         let told: Vec<Neighbour> = flying.iter_mut().filter_map(|one| one.step(now)).collect();
         for one in &mut flying {
             for neighbour in told.iter().filter(|told| told.system != one.system) {

@@ -165,7 +165,8 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
         }
         None => Scenario::default(),
     };
-    Ok(WorldConfig { drone, link, scenario, tags: arguments.drone.tag.clone() })
+    let tags = arguments.drone.tag.clone();
+    Ok(WorldConfig { drone, link, scenario, tags, ..WorldConfig::default() })
 }
 
 fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {

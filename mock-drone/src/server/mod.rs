@@ -1,6 +1,7 @@
 //! The drone on real sockets: UDP for AT commands and navdata, TCP for the configuration, and its other ports
 //! as far as clients need them to connect.
 
+mod air;
 mod ftp;
 #[cfg(feature = "video")]
 mod video;
@@ -21,6 +22,8 @@ use tokio::sync::oneshot;
 use tokio::time::Instant;
 use tracing::{debug, info};
 
+pub use self::air::Air;
+use self::air::InAir;
 use crate::truth_log::TruthLog;
 use crate::{Message, Truth, World, WorldConfig};
 
@@ -99,6 +102,7 @@ pub struct Server {
     video: Option<TcpListener>,
     presence: Option<TcpListener>,
     world: World,
+    in_air: Option<InAir>,
     truth: Arc<Mutex<Truth>>,
     log: Option<TruthLog<File>>,
     next_flush: Duration,
@@ -150,12 +154,18 @@ impl Server {
             video: optional(ports.video, "video (TCP)").await?,
             presence: optional(ports.presence, "presence (TCP)").await?,
             world,
+            in_air: None,
             truth,
             log: None,
             next_flush: Duration::ZERO,
             #[cfg(feature = "video")]
             video_clock: false,
         })
+    }
+
+    /// Puts the drone into an air that others share, at [`WorldConfig::start`].
+    pub fn enter(&mut self, air: &Air) {
+        self.in_air = Some(air.enter(self.world.presence()));
     }
 
     /// Records the true state.
@@ -243,6 +253,10 @@ impl Server {
                 _ = clock.tick() => {}
             }
             let now = start.elapsed();
+            if let Some(in_air) = &mut self.in_air {
+                let others = in_air.exchange(self.world.presence());
+                self.world.meet(others.iter().copied());
+            }
             self.world.advance(now);
             #[cfg(feature = "video")]
             if let Some(video) = video.as_ref().filter(|video| video.is_watched()) {
@@ -341,18 +355,26 @@ pub struct MockDrone {
 }
 
 impl MockDrone {
-    /// Starts a drone.
+    /// Starts a drone that is alone in its air.
     ///
     /// # Errors
     /// [`ServerError`] if a port is taken or the thread cannot be started.
     pub fn start(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
-        let config = config.clone();
+        Self::start_in(&Air::default(), config, ports)
+    }
+
+    /// Starts a drone in an air that others share: at [`WorldConfig::start`], in the frame of the air.
+    ///
+    /// # Errors
+    /// As [`MockDrone::start`].
+    pub fn start_in(air: &Air, config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
+        let (air, config) = (air.clone(), config.clone());
         let (stop, stopped) = oneshot::channel();
         let (started, starting) = std::sync::mpsc::sync_channel(1);
         // The runtime is created on the drone's own thread, so that the caller may have one too.
         let thread =
             std::thread::Builder::new().name("mock-drone".to_owned()).spawn(move || {
-                live(&config, ports, &started, stopped);
+                live(&air, &config, ports, &started, stopped);
             })?;
         let ended = || io::Error::other("the mock drone's thread ended at once");
         let (ports, truth) = starting.recv().map_err(|_| ended())??;
@@ -364,7 +386,7 @@ impl MockDrone {
         self.ports
     }
 
-    /// The true state now.
+    /// The true state now, in the drone's own frame, which begins at its start.
     pub fn truth(&self) -> Truth {
         *self.truth.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -375,6 +397,7 @@ type Started = Result<(Ports, Arc<Mutex<Truth>>), ServerError>;
 
 /// Body of the drone's thread: reports the start, then runs until it is stopped.
 fn live(
+    air: &Air,
     config: &WorldConfig,
     ports: Ports,
     started: &SyncSender<Started>,
@@ -387,10 +410,11 @@ fn live(
         Err(error) => return tell(Err(error.into())),
     };
     runtime.block_on(async {
-        let server = match Server::bind(config, ports).await {
+        let mut server = match Server::bind(config, ports).await {
             Ok(server) => server,
             Err(error) => return tell(Err(error)),
         };
+        server.enter(air);
         let truth = Arc::clone(&server.truth);
         tell(server.ports().map(|ports| (ports, truth)).map_err(ServerError::from));
         tokio::select! {

@@ -78,6 +78,7 @@ impl Flight {
                 link,
                 scenario: injected.scenario(),
                 tags: tags.as_ref().map(|tags| tags.laid.clone()).unwrap_or_default(),
+                ..WorldConfig::default()
             },
             pilot,
             orders,

@@ -7,16 +7,16 @@ mod random;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_pilot::drive::{Driver, POLL, Passed, Simulated};
+use ardrone_pilot::drive::{self, Driver, POLL, Passed, Simulated};
 use autopilot::outcome::Outcome;
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{
-    CannotFly, FlightEvent, Input, Operator, OperatorOrder, Start, TICK, Telemetry, Vehicle,
+    self, CannotFly, FlightEvent, Input, Operator, OperatorOrder, Start, TICK, Telemetry, Vehicle,
     VehicleConfig,
 };
 use kinematics::world_from_body;
 use mock_drone::firmware::Phase;
-use mock_drone::{Truth, WorldConfig};
+use mock_drone::{Standing, Truth, WorldConfig};
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -43,7 +43,7 @@ pub struct Member {
     pub orders: Vec<(Duration, OperatorOrder)>,
 }
 
-/// How messages between vehicles travel.
+/// How messages between vehicles travel, and whether more than messages does.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Air {
     /// Share of them that is lost.
@@ -56,6 +56,8 @@ pub struct Air {
     pub lie: Option<(Duration, Vector2<f64>)>,
     /// Seed of the losses.
     pub seed: u64,
+    /// Whether the drones share the air: each feels the wash of those above, and hears the ultrasound of those nearby.
+    pub is_shared: bool,
 }
 
 /// Vehicles in one room.
@@ -76,6 +78,10 @@ pub struct MemberFlight {
     pub ended: Duration,
     /// Its events with their times.
     pub events: Vec<(Duration, FlightEvent)>,
+    /// How wrong it was of its height while it flew, at most.
+    pub height_error_m: f64,
+    /// Likewise the height that its drone reported.
+    pub reported_height_error_m: f64,
 }
 
 /// Two vehicles in the air, and how near they were to each other.
@@ -186,6 +192,16 @@ impl Flying {
             }
             _ => {}
         });
+        let decided = self.driver.vehicle.decision().filter(|_| ticked);
+        if let Some(decision) = decided.filter(|decision| decision.phase == vehicle::Phase::Flying)
+        {
+            let height_m = self.driver.world().truth().position_m.z;
+            let off_m = (decision.state.position_m.z - height_m).abs();
+            self.flight.height_error_m = self.flight.height_error_m.max(off_m);
+            let reported_m = self.driver.vehicle.status(self.driver.now()).altitude_m;
+            let off_m = (reported_m.unwrap_or(height_m) - height_m).abs();
+            self.flight.reported_height_error_m = self.flight.reported_height_error_m.max(off_m);
+        }
         let now = self.driver.now();
         if self.driver.vehicle.status(now).navdata_age.is_some_and(|age| age > HEARD) {
             self.unheard_at = Some(now);
@@ -227,10 +243,19 @@ impl Fleet {
             let mut config = VehicleConfig { system, peers, ..member.pilot.clone() };
             config.starts_at(Some(member.start));
             let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
+            let Start { place_m, heading_deg, .. } = member.start;
+            let start = Standing { place_m, heading_deg };
+            let world = WorldConfig { start, ..member.world.clone() };
             flying.push(Flying {
-                driver: Driver::new(vehicle, &member.world),
+                driver: Driver::new(vehicle, &world),
                 start: member.start,
-                flight: MemberFlight { outcome: None, ended: limit, events: Vec::new() },
+                flight: MemberFlight {
+                    outcome: None,
+                    ended: limit,
+                    events: Vec::new(),
+                    height_error_m: 0.0,
+                    reported_height_error_m: 0.0,
+                },
                 orders: member.orders.iter().cloned().collect(),
                 unheard_at: None,
                 mail: VecDeque::new(),
@@ -239,6 +264,9 @@ impl Fleet {
         let mut nearest = [None; 2];
         let mut now = Duration::ZERO;
         while now < limit && !flying.iter().all(Flying::is_over) {
+            if self.air.is_shared {
+                drive::share_air(flying.iter_mut().map(|member| &mut member.driver));
+            }
             let mut told = Vec::new();
             for (number, member) in flying.iter_mut().enumerate() {
                 member.receive(now);

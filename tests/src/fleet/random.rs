@@ -97,5 +97,6 @@ fn air(random: &mut ChaCha8Rng, seed: u64) -> Air {
         silent: random.random_bool(0.3).then(|| [begins_s, ends_s].map(Duration::from_secs_f64)),
         lie: None,
         seed,
+        is_shared: false,
     }
 }
