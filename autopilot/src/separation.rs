@@ -6,6 +6,8 @@
 //! to rest: whoever is fast has more of it. Lines are upright, so that nobody flies above or below another, whose downwash
 //! carries it off, and no wrong height brings two together.
 
+mod passing;
+
 use std::time::Duration;
 
 use arrayvec::ArrayVec;
@@ -13,6 +15,9 @@ use nalgebra::Vector2;
 
 use crate::fence::Wall;
 use crate::safety::Stopping;
+
+pub use self::passing::{Claim, Rank};
+pub(crate) use self::passing::{Progress, makes_way, waits, way_past};
 
 /// Most other vehicles.
 pub const MAX_NEIGHBOURS: usize = 31;
@@ -44,12 +49,15 @@ pub struct Neighbour {
     pub deviation_m: f64,
     /// Whether it is in the air.
     pub airborne: bool,
+    /// The way that it claims, if it has been held up, or makes way itself.
+    pub claim: Option<Claim>,
 }
 
 impl Neighbour {
     /// Whether all its numbers are usable.
     fn is_sound(&self) -> bool {
         let numbers = self.place_m.iter().chain(&self.velocity_m_s);
+        let numbers = numbers.chain(self.claim.iter().flat_map(|claim| &claim.to_m));
         numbers.chain([&self.deviation_m]).all(|number| number.is_finite())
             && self.deviation_m >= 0.0
     }
@@ -97,6 +105,9 @@ struct Known {
 /// A vehicle that keeps away from others.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Oneself {
+    pub(crate) system: u8,
+    /// That of its own claim.
+    pub(crate) rank: Option<Rank>,
     pub(crate) place_m: Vector2<f64>,
     pub(crate) velocity_m_s: Vector2<f64>,
     pub(crate) deviation_m: f64,
@@ -110,6 +121,8 @@ pub(crate) struct Other {
     pub(crate) place_m: Vector2<f64>,
     /// How near to its place this vehicle may come.
     pub(crate) keep_m: f64,
+    /// The way that it claims, if this vehicle has to make it.
+    claim: Option<Claim>,
     /// Unit vector towards it.
     outward: Vector2<f64>,
     /// The line between the two: how far along that vector it is from the origin.
@@ -207,27 +220,9 @@ fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
     let most_m = between_m.max(between_m / 2.0);
     let room_m = ((between_m + ours_m - theirs_m) / 2.0).min(most_m);
     let line_m = oneself.place_m.dot(&outward) + room_m;
-    Other { place_m, keep_m, outward, line_m }
-}
-
-/// Where to fly to on the way to a target: there, or past who is in the way, on the right of it. As everybody keeps to the
-/// right, two that meet do not block each other where there is room on the right.
-pub(crate) fn way_past(
-    from_m: Vector2<f64>,
-    target_m: Vector2<f64>,
-    others: &Others,
-) -> Vector2<f64> {
-    let distance_m = |other: &&Other| (other.place_m - from_m).norm();
-    let in_the_way = others.iter().filter(|other| other.blocks(from_m, target_m));
-    let nearest = in_the_way.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
-    let Some(other) = nearest else { return target_m };
-    let away_m = distance_m(&other).max(f64::EPSILON);
-    // Along the tangent, clockwise as seen from above.
-    let sine = (other.keep_m / away_m).min(1.0);
-    let cosine = (1.0 - sine * sine).sqrt();
-    let ahead = other.outward;
-    let right = Vector2::new(ahead.y, -ahead.x);
-    from_m + (ahead * cosine + right * sine) * (target_m - from_m).norm()
+    let makes_way = |claim: &Claim| claim.is_before(neighbour.system, oneself.rank, oneself.system);
+    let claim = neighbour.claim.filter(makes_way);
+    Other { place_m, keep_m, claim, outward, line_m }
 }
 
 #[cfg(test)]

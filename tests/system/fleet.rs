@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
+use autopilot::plan::Border;
 use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
 use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
@@ -64,6 +65,40 @@ fn side_by_side(orders: Vec<(Duration, OperatorOrder)>) -> Fleet {
     let mut first = member(0.0, 1);
     first.orders = orders;
     Fleet { members: vec![first, member(3.0, 2)], ..Fleet::default() }
+}
+
+/// Vehicles that fly from one place to another, and stay there for so long, in a fence that is so wide from the middle.
+fn from_to(fence_m: [f64; 2], flights: &[([f64; 2], [f64; 2], u64)], seed: u64) -> Fleet {
+    let [x_m, y_m] = fence_m;
+    let border = Border::polygon(&[[-x_m, -y_m], [x_m, -y_m], [x_m, y_m], [-x_m, y_m]]).unwrap();
+    let members = flights.iter().zip(0..).map(|((from_m, to_m, stay_s), number)| {
+        let mut member = crossing(1, 0.0, 10 * seed + number).members.remove(0);
+        member.start.place_m = (*from_m).into();
+        let [x_m, y_m] = to_m;
+        member.plan = format!("takeoff\nsetStayTime {stay_s}\ngoto {x_m} {y_m} 0.5 0\nland\n");
+        member.pilot.limits.border = border;
+        member
+    });
+    Fleet { members: members.collect(), ..Fleet::default() }
+}
+
+/// Who hovers beside a wall is passed on the other side; two that meet in a corridor pass each other though one is nearer to
+/// the wall on its right; one that hovers in the middle of a corridor makes way, and comes back.
+#[test]
+fn all_arrive_where_there_is_room_to_pass() {
+    let walls = [[5.0, 3.0], [5.0, 4.5], [5.0, 1.8], [5.0, 2.2]];
+    let flights = [
+        [([-4.0, -2.5], [4.0, -2.5], 1), ([0.0, -2.5], [0.0, -2.5], 60)],
+        [([-1.1, 0.7], [2.2, 0.7], 1), ([0.4, -2.6], [-4.0, 3.7], 1)],
+        [([-4.0, 0.0], [4.0, 0.0], 1), ([4.0, 0.0], [-4.0, 0.0], 1)],
+        [([-4.0, 0.0], [4.0, 0.0], 1), ([0.5, 0.0], [0.5, 0.0], 40)],
+    ];
+    for (fence_m, flights) in walls.into_iter().zip(&flights) {
+        for seed in 0..3 {
+            let flight = flown(&from_to(fence_m, flights, seed));
+            assert!(flight.keeps_apart() && flight.is_complete(), "{fence_m:?} {seed}: {flight:?}");
+        }
+    }
 }
 
 /// Orders from the tenth second on, every tenth of a second for so long, and then to go on.

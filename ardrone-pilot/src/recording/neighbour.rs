@@ -18,6 +18,16 @@ pub struct Neighbour {
     y_m_s: Option<f64>,
     deviation_m: Option<f64>,
     airborne: bool,
+    claim: Option<Claim>,
+}
+
+/// As [`separation::Claim`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Claim {
+    x_m: Option<f64>,
+    y_m: Option<f64>,
+    system: u8,
+    behind: u8,
 }
 
 impl From<&separation::Neighbour> for Neighbour {
@@ -32,6 +42,12 @@ impl From<&separation::Neighbour> for Neighbour {
             y_m_s: finite(heard.velocity_m_s.y),
             deviation_m: finite(heard.deviation_m),
             airborne: heard.airborne,
+            claim: heard.claim.map(|separation::Claim { to_m, rank }| Claim {
+                x_m: finite(to_m.x),
+                y_m: finite(to_m.y),
+                system: rank.system,
+                behind: rank.behind,
+            }),
         }
     }
 }
@@ -47,6 +63,10 @@ impl Neighbour {
             velocity_m_s: Vector2::new(number(self.x_m_s), number(self.y_m_s)),
             deviation_m: number(self.deviation_m),
             airborne: self.airborne,
+            claim: self.claim.map(|Claim { x_m, y_m, system, behind }| separation::Claim {
+                to_m: Vector2::new(number(x_m), number(y_m)),
+                rank: separation::Rank { system, behind },
+            }),
         }
     }
 }
@@ -64,6 +84,10 @@ mod tests {
             velocity_m_s: Vector2::new(1e-3, 4.0),
             deviation_m: 0.25,
             airborne: true,
+            claim: Some(separation::Claim {
+                to_m: Vector2::new(3.0, -0.1),
+                rank: separation::Rank { system: 2, behind: 1 },
+            }),
         };
         let again = |heard: &separation::Neighbour| {
             let text = serde_json::to_string(&Neighbour::from(heard)).unwrap();
@@ -87,6 +111,7 @@ mod tests {
             y_m_s: None,
             deviation_m: None,
             airborne: false,
+            claim: None,
         });
         let keys = |value: &serde_json::Value| -> Vec<String> {
             value.as_object().unwrap().keys().cloned().collect()

@@ -209,11 +209,18 @@ mod tests {
             velocity_m_s: Vector2::zeros(),
             deviation_m: 0.0,
             airborne: true,
+            claim: None,
         };
         neighbours.hear(neighbour).unwrap();
         let velocity_m_s = Vector2::new(2.0, 0.0);
-        let oneself =
-            Oneself { place_m: here_m, velocity_m_s, deviation_m: 0.0, separation_m: 1.5 };
+        let oneself = Oneself {
+            system: 1,
+            rank: None,
+            place_m: here_m,
+            velocity_m_s,
+            deviation_m: 0.0,
+            separation_m: 1.5,
+        };
         let now = Situation { soon, ..FINE };
         let mut brake = Brake::of(&now, 0.0, &FENCE);
         brake.keep_apart(&now, &neighbours.others(FINE.now, &oneself));

@@ -1,8 +1,11 @@
 use super::*;
+use crate::fence::Border;
 
 const AT: Duration = Duration::from_secs(10);
 
 const ONESELF: Oneself = Oneself {
+    system: 1,
+    rank: None,
     place_m: Vector2::new(0.0, 0.0),
     velocity_m_s: Vector2::new(0.0, 0.0),
     deviation_m: 0.0,
@@ -17,6 +20,7 @@ fn neighbour(x_m: f64, y_m: f64) -> Neighbour {
         velocity_m_s: Vector2::zeros(),
         deviation_m: 0.0,
         airborne: true,
+        claim: None,
     }
 }
 
@@ -133,7 +137,12 @@ fn nonsense_is_not_heard_nor_more_than_fit() {
 /// Where somebody at the origin flies on its way forward.
 fn past(target_m: f64, neighbours: &[(f64, f64)]) -> Vector2<f64> {
     let others = neighbours.iter().map(|(x_m, y_m)| other(AT, &ONESELF, &neighbour(*x_m, *y_m)));
-    way_past(Vector2::zeros(), Vector2::new(0.0, target_m), &others.collect())
+    way_past(
+        Vector2::zeros(),
+        Vector2::new(0.0, target_m),
+        &others.collect(),
+        &Border::circle(99.0),
+    )
 }
 
 #[test]
@@ -165,4 +174,98 @@ fn who_is_silent_or_flies_near_is_known_before_a_take_off() {
     assert_eq!(near(neighbour(1.4, 0.0)), [(2, 1.4)]);
     assert_eq!(near(neighbour(1.6, 0.0)), []);
     assert_eq!(near(Neighbour { airborne: false, ..neighbour(1.0, 0.0) }), []);
+}
+
+/// Where somebody at the origin flies to on its way forward that passes another one, in a room so wide to the right and left.
+fn past_in_a_room(right_m: f64, left_m: f64) -> Vector2<f64> {
+    let corners_m = [[-left_m, -9.0], [right_m, -9.0], [right_m, 9.0], [-left_m, 9.0]];
+    let border = Border::polygon(&corners_m).unwrap();
+    let others = [other(AT, &ONESELF, &neighbour(0.0, 3.0))].into_iter().collect();
+    way_past(Vector2::zeros(), Vector2::new(0.0, 6.0), &others, &border)
+}
+
+#[test]
+fn it_is_passed_on_its_left_where_only_there_is_room() {
+    // The tangents touch 1.3 m to the right and left.
+    for (right_m, left_m, is_right) in
+        [(1.4, 9.0, true), (1.2, 9.0, false), (1.2, 1.2, true), (9.0, 1.2, true)]
+    {
+        let past_m = past_in_a_room(right_m, left_m);
+        assert_eq!(past_m.x > 0.0, is_right, "{right_m} {left_m}: {past_m}");
+        assert!((past_m.x.abs() - 3.0).abs() < 1e-9, "{past_m}");
+    }
+}
+
+fn claim(x_m: f64, y_m: f64, system: u8, behind: u8) -> Claim {
+    Claim { to_m: Vector2::new(x_m, y_m), rank: Rank { system, behind } }
+}
+
+/// Another one 4 m to the left that wants to get 8 m to the right, as seen by somebody with a claim or none.
+fn passing(rank: Option<Rank>, claim: Claim) -> Others {
+    let there = Neighbour { claim: Some(claim), ..neighbour(-4.0, 0.0) };
+    [other(AT, &Oneself { system: 3, rank, ..ONESELF }, &there)].into_iter().collect()
+}
+
+#[test]
+fn the_lower_number_goes_first_and_those_that_make_way_for_it_follow() {
+    let wide = Border::circle(99.0);
+    let makes_way = |rank, claim| makes_way(Vector2::zeros(), &passing(rank, claim), &wide);
+    let own = Some(Rank { system: 3, behind: 0 });
+    assert!(makes_way(None, claim(4.0, 0.0, 200, 0)).is_some(), "who claims nothing makes way");
+    let found = makes_way(own, claim(4.0, 0.0, 2, 0));
+    assert_eq!(found.map(|claim| claim.rank), Some(Rank { system: 2, behind: 1 }));
+    assert_eq!(makes_way(own, claim(4.0, 0.0, 4, 0)), None);
+    let follows = Some(Rank { system: 2, behind: 1 });
+    assert!(makes_way(follows, claim(4.0, 0.0, 2, 0)).is_some());
+    // Of two that make way for the same one the lower number goes first: that of the other one is 2.
+    assert!(makes_way(follows, claim(4.0, 0.0, 2, 1)).is_some());
+    assert_eq!(makes_way(follows, claim(4.0, 0.0, 2, 2)), None);
+    assert_eq!(makes_way(None, claim(4.0, 0.0, 2, 4)), None, "not for ever");
+}
+
+#[test]
+fn way_is_made_beside_it_where_there_is_room() {
+    let border = |ahead_m: f64, back_m: f64| {
+        let corners_m = [[-9.0, -back_m], [9.0, -back_m], [9.0, ahead_m], [-9.0, ahead_m]];
+        Border::polygon(&corners_m).unwrap()
+    };
+    let others = passing(None, claim(4.0, 0.0, 2, 0));
+    let to_m = |here_m: Vector2<f64>, border: &Border| {
+        makes_way(here_m, &others, border).map(|claim| claim.to_m)
+    };
+    let near = |found: Option<Vector2<f64>>, x_m: f64, y_m: f64| {
+        found.is_some_and(|found| (found - Vector2::new(x_m, y_m)).norm() < 1e-6)
+    };
+    let here_m = Vector2::new(0.0, 0.5);
+    assert!(near(to_m(here_m, &border(9.0, 9.0)), 0.0, 2.0), "half a metre more than must be");
+    assert!(near(to_m(here_m, &border(1.6, 9.0)), 0.0, -2.0), "on the other side");
+    assert_eq!(to_m(here_m, &border(1.6, 1.6)), None, "nowhere");
+    assert_eq!(to_m(Vector2::new(0.0, 1.8), &border(9.0, 9.0)), None, "it is not in the way");
+    assert!(near(to_m(Vector2::new(4.5, 0.0), &border(9.0, 9.0)), 6.0, 0.0), "behind the end");
+    // Beside it those wait whose target is in it.
+    let waits = |y_m, target_m: [f64; 2]| waits(Vector2::new(0.0, y_m), target_m.into(), &others);
+    assert!(waits(2.4, [1.0, -1.0]) && !waits(2.6, [1.0, -1.0]) && !waits(2.4, [1.0, -2.0]));
+}
+
+#[test]
+fn who_does_not_come_nearer_is_held_up_until_it_is_there() {
+    let second = Duration::from_secs(1);
+    let target_m = Vector2::new(5.0, 0.0);
+    let mut progress = Progress::new(AT, target_m);
+    let mut after = |s, x_m, makes_way| {
+        progress.is_held_up(AT + second * s, Vector2::new(x_m, 0.0), target_m, makes_way)
+    };
+    assert_eq!([0, 5].map(|s| after(s, 0.0, false)), [false, false]);
+    assert_eq!(
+        [(5, 0.4), (10, 0.6), (11, 0.6)].map(|(s, x_m)| after(s, x_m, false)),
+        [false, false, true]
+    );
+    assert!(after(12, 4.0, false), "it still wants to get there");
+    assert!(!after(13, 4.8, false), "it is there");
+    assert_eq!(
+        [(14, true), (19, false), (20, false)].map(|(s, way)| after(s, 2.0, way)),
+        [false, false, true]
+    );
+    let elsewhere_m = Vector2::new(2.0, 4.0);
+    assert!(!progress.is_held_up(AT + second * 21, Vector2::new(2.0, 0.0), elsewhere_m, false));
 }

@@ -30,6 +30,7 @@ impl Vehicle {
             velocity_m_s: estimate.velocity_m_s.xy(),
             deviation_m: self.flight.estimator.horizontal_deviation_m(estimate.at),
             airborne: !self.on_ground(),
+            claim: self.flight.safety.claim(),
         })
     }
 
@@ -46,6 +47,8 @@ impl Vehicle {
     /// This vehicle among the others.
     pub(super) fn oneself(&self, now: Duration, state: &Prediction) -> Oneself {
         Oneself {
+            system: self.config.system,
+            rank: self.flight.safety.claim().map(|claim| claim.rank),
             place_m: state.position_m.xy(),
             velocity_m_s: state.velocity_m_s.xy(),
             deviation_m: self.flight.estimator.horizontal_deviation_m(now),
@@ -63,6 +66,6 @@ impl Vehicle {
     ) -> (AgentCommand, Option<Veto>) {
         let others = self.neighbours.others(now, &self.oneself(now, state));
         let limits = self.course_limits();
-        self.flight.safety.keep_apart(command, situation, &others, &limits)
+        self.flight.safety.keep_apart(command, situation, &others, &limits, self.config.system)
     }
 }
