@@ -7,7 +7,7 @@ use ardrone_link::WAKE_UP;
 use ardrone_pilot::drive::{Driver, POLL, Surroundings, Take, input};
 use ardrone_pilot::recording::{Header, Recorder};
 use autopilot::Vehicle;
-use autopilot::separation::{Claim, Neighbour, Rank};
+use autopilot::separation::{Claim, Neighbour, Presence, Rank};
 use autopilot::vehicle::{
     Input, NavdataRate, Operator, OperatorOrder, Phase, Place, TagConfig, Transmit, VehicleConfig,
 };
@@ -135,7 +135,8 @@ fn hovering(number: u8, at: Duration) -> Neighbour {
         place_m,
         velocity_m_s,
         deviation_m: 0.1,
-        airborne: true,
+        separation_m: 1.5,
+        presence: Presence::Flies,
         claim,
     }
 }

@@ -142,7 +142,7 @@ mod tests {
     use super::*;
     use crate::fence::Border;
     use crate::safety::tests::FINE;
-    use crate::separation::{Neighbour, Neighbours, Oneself};
+    use crate::separation::{Neighbour, Neighbours, Oneself, Presence};
     use crate::wind::Wind;
 
     const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
@@ -208,7 +208,8 @@ mod tests {
             place_m: here_m + Vector2::new(away_m, 0.0),
             velocity_m_s: Vector2::zeros(),
             deviation_m: 0.0,
-            airborne: true,
+            separation_m: 1.5,
+            presence: Presence::Flies,
             claim: None,
         };
         neighbours.hear(neighbour).unwrap();
