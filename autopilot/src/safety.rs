@@ -24,7 +24,7 @@ use self::descent::{Cause, Descent};
 pub(crate) use self::stopping::{Stopping, stopping_inside_m_s};
 use crate::agent::AgentCommand;
 use crate::fence::{FlightLimits, across};
-use crate::separation::Others;
+use crate::separation::{Claim, Others};
 pub use crate::wind::Wind;
 
 /// Navdata older than this are too old to move by: the drone hovers.
@@ -325,13 +325,14 @@ impl SafetyMonitor {
     }
 
     /// What [`SafetyMonitor::check`] has left of a command, kept apart from other vehicles: the drone lands if that is not
-    /// possible. The reference of its motion stays within `limits`.
+    /// possible. The reference of its motion stays within `limits`; `system` is its number.
     pub(crate) fn keep_apart(
         &mut self,
         command: AgentCommand,
         now: &Situation,
         others: &Others,
         limits: &MotionLimits,
+        system: u8,
     ) -> (AgentCommand, Option<Veto>) {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         if others.is_empty() || !now.airborne || !moves {
@@ -344,13 +345,18 @@ impl SafetyMonitor {
             return (AgentCommand::Land, Some(Veto::Crowded));
         }
         let (command, keeps_apart) =
-            self.apart.keep(command, now, others, &self.fence.border, limits);
+            self.apart.keep(command, now, others, &self.fence.border, limits, system);
         (command, keeps_apart.then_some(Veto::KeepsApart))
     }
 
     /// The way on which the drone is kept apart from others, if it is.
     pub(crate) fn course(&self) -> Option<&Course> {
         self.apart.course()
+    }
+
+    /// The way that the drone claims from others.
+    pub(crate) fn claim(&self) -> Option<Claim> {
+        self.apart.claim()
     }
 
     /// Ends a flight back into the fence: the drone lands where it is.

@@ -6,6 +6,8 @@
 //! to rest: whoever is fast has more of it. Lines are upright, so that nobody flies above or below another, whose downwash
 //! carries it off, and no wrong height brings two together.
 
+mod passing;
+
 use std::time::Duration;
 
 use arrayvec::ArrayVec;
@@ -13,6 +15,9 @@ use nalgebra::Vector2;
 
 use crate::fence::Wall;
 use crate::safety::Stopping;
+
+pub use self::passing::{Claim, Rank};
+pub(crate) use self::passing::{Progress, makes_way, waits, way_past};
 
 /// Most other vehicles.
 pub const MAX_NEIGHBOURS: usize = 31;
@@ -28,6 +33,19 @@ const SILENT: Duration = Duration::from_secs(2);
 /// A place moves by this, and this many standard deviations, without a motion: a tag corrects it.
 const JUMP_M: f64 = 0.3;
 const JUMP_DEVIATIONS: f64 = 4.0;
+/// Who was where it cannot have got to is believed again by so much in each second.
+const REGAINED_M_S: f64 = 0.1;
+
+/// Whether a vehicle is in the air.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Presence {
+    /// It stands on the ground.
+    Stands,
+    /// It is about to take off, when the others have had time to hear it: they keep away from it.
+    Starts,
+    /// It is in the air.
+    Flies,
+}
 
 /// What a vehicle tells the others of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,15 +60,20 @@ pub struct Neighbour {
     pub velocity_m_s: Vector2<f64>,
     /// Standard deviation of the place on the worse axis.
     pub deviation_m: f64,
+    /// Least distance that it keeps from others, across.
+    pub separation_m: f64,
     /// Whether it is in the air.
-    pub airborne: bool,
+    pub presence: Presence,
+    /// The way that it claims, if it has been held up, or makes way itself.
+    pub claim: Option<Claim>,
 }
 
 impl Neighbour {
     /// Whether all its numbers are usable.
     fn is_sound(&self) -> bool {
         let numbers = self.place_m.iter().chain(&self.velocity_m_s);
-        numbers.chain([&self.deviation_m]).all(|number| number.is_finite())
+        let numbers = numbers.chain(self.claim.iter().flat_map(|claim| &claim.to_m));
+        numbers.chain([&self.deviation_m, &self.separation_m]).all(|number| number.is_finite())
             && self.deviation_m >= 0.0
     }
 
@@ -71,7 +94,7 @@ pub enum NotHeard {
     /// A number is not finite, or negative.
     #[error("another vehicle tells nonsense of its place")]
     Nonsense,
-    /// It cannot have got there. It is avoided where it was, and may be since.
+    /// It cannot have got there. It is taken to be there, but as uncertain as the way that it cannot have flown.
     #[error("another vehicle is where it cannot have got to")]
     Jumps,
     /// It has this vehicle's number.
@@ -88,15 +111,19 @@ pub(crate) struct Neighbours(ArrayVec<Known, MAX_NEIGHBOURS>);
 
 #[derive(Debug, Clone, Copy)]
 struct Known {
-    /// What was believed last.
+    /// What it told last.
     told: Neighbour,
-    /// It was where it cannot have got to: until it says that it is on the ground it is not believed, and may be anywhere.
-    has_jumped: bool,
+    /// By how much it was where it cannot have got to, in metres: its place is as uncertain as that. It becomes less while it
+    /// goes on as it can, and ends on the ground.
+    doubt_m: f64,
 }
 
 /// A vehicle that keeps away from others.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Oneself {
+    pub(crate) system: u8,
+    /// That of its own claim.
+    pub(crate) rank: Option<Rank>,
     pub(crate) place_m: Vector2<f64>,
     pub(crate) velocity_m_s: Vector2<f64>,
     pub(crate) deviation_m: f64,
@@ -108,8 +135,11 @@ pub(crate) struct Oneself {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Other {
     pub(crate) place_m: Vector2<f64>,
+    separation_m: f64,
     /// How near to its place this vehicle may come.
     pub(crate) keep_m: f64,
+    /// The way that it claims, if this vehicle has to make it.
+    claim: Option<Claim>,
     /// Unit vector towards it.
     outward: Vector2<f64>,
     /// The line between the two: how far along that vector it is from the origin.
@@ -144,10 +174,11 @@ impl Neighbours {
             return Err(NotHeard::Nonsense);
         }
         let known = self.0.iter_mut().find(|known| known.told.system == neighbour.system);
-        let Some(Known { told, has_jumped }) = known else {
-            let known = Known { told: neighbour, has_jumped: false };
+        let Some(known) = known else {
+            let known = Known { told: neighbour, doubt_m: 0.0 };
             return self.0.try_push(known).map_err(|_| NotHeard::TooMany);
         };
+        let Known { told, doubt_m } = *known;
         // An older message may come later.
         if neighbour.at < told.at {
             return Ok(());
@@ -155,43 +186,63 @@ impl Neighbours {
         let (place_m, reach_m) = told.reach(neighbour.at);
         let deviation_m = told.deviation_m.hypot(neighbour.deviation_m);
         let furthest_m = reach_m + JUMP_M + JUMP_DEVIATIONS * deviation_m;
-        *has_jumped |= (neighbour.place_m - place_m).norm() > furthest_m;
-        *has_jumped &= neighbour.airborne;
-        if *has_jumped {
-            return Err(NotHeard::Jumps);
-        }
-        *told = neighbour;
-        Ok(())
+        let jump_m = (neighbour.place_m - place_m).norm();
+        let stands = neighbour.presence == Presence::Stands;
+        let has_jumped = jump_m > furthest_m && !stands;
+        let regained_m = REGAINED_M_S * neighbour.at.saturating_sub(told.at).as_secs_f64();
+        let doubt_m = if stands { 0.0 } else { (doubt_m - regained_m).max(0.0) };
+        *known = Known {
+            told: neighbour,
+            doubt_m: if has_jumped { doubt_m.max(jump_m) } else { doubt_m },
+        };
+        if has_jumped { Err(NotHeard::Jumps) } else { Ok(()) }
+    }
+
+    /// Whether none has ever been heard.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// Whether this one has told of itself, not too long ago.
     pub(crate) fn is_heard(&self, system: u8, now: Duration) -> bool {
         let known = self.0.iter().find(|known| known.told.system == system);
-        known.is_some_and(|known| now.saturating_sub(known.told.at) <= SILENT && !known.has_jumped)
+        known.is_some_and(|known| {
+            now.saturating_sub(known.told.at) <= SILENT && known.doubt_m == 0.0
+        })
     }
 
-    /// Those in the air from which a vehicle is not separated, with their distances across.
+    /// Those near to whom a vehicle must not take off, with their distances across: who flies or is about to, if the two are
+    /// not separated, and who stands nearer than they may be. Of two that are about to, the one with the lower number does.
     pub(crate) fn too_near(
         &self,
         now: Duration,
         oneself: &Oneself,
     ) -> impl Iterator<Item = (u8, f64)> {
-        let flying = self.0.iter().map(|known| &known.told).filter(|told| told.airborne);
-        flying.filter_map(move |told| {
-            let other = other(now, oneself, told);
+        self.0.iter().filter_map(move |known| {
+            let Neighbour { system, presence, .. } = known.told;
+            let other = other(now, oneself, known);
             let away_m = (other.place_m - oneself.place_m).norm();
-            (other.wall(oneself.place_m).distance_m < 0.0).then_some((told.system, away_m))
+            let is_beyond = other.wall(oneself.place_m).distance_m < 0.0;
+            let is_near = match presence {
+                Presence::Stands => away_m < other.separation_m,
+                Presence::Starts => {
+                    away_m < other.separation_m || is_beyond && system < oneself.system
+                }
+                Presence::Flies => is_beyond,
+            };
+            is_near.then_some((system, away_m))
         })
     }
 
-    /// Those in the air, as seen by a vehicle.
+    /// Those in the air or about to be, as seen by a vehicle.
     pub(crate) fn others(&self, now: Duration, oneself: &Oneself) -> Others {
-        let flying = self.0.iter().filter(|known| known.told.airborne);
-        flying.map(|known| other(now, oneself, &known.told)).collect()
+        let flying = self.0.iter().filter(|known| known.told.presence != Presence::Stands);
+        flying.map(|known| other(now, oneself, known)).collect()
     }
 }
 
-fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
+fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
+    let Known { told: neighbour, doubt_m } = known;
     let (place_m, reach_m) = neighbour.reach(now);
     let way_m = place_m - oneself.place_m;
     // Two in one place have to part in some direction.
@@ -199,35 +250,19 @@ fn other(now: Duration, oneself: &Oneself, neighbour: &Neighbour) -> Other {
     let to_rest_m = |speed_m_s: f64| Stopping::CAUTIOUS.way_m(speed_m_s.max(0.0));
     let ours_m = to_rest_m(oneself.velocity_m_s.dot(&outward));
     let theirs_m = to_rest_m(-neighbour.velocity_m_s.dot(&outward));
-    let deviation_m = oneself.deviation_m.hypot(neighbour.deviation_m);
-    let keep_m = oneself.separation_m + DEVIATIONS * deviation_m + reach_m;
+    let deviation_m = oneself.deviation_m.hypot(neighbour.deviation_m).hypot(*doubt_m);
+    // Of both separations the larger one, so that both draw the same line.
+    let separation_m = oneself.separation_m.max(neighbour.separation_m);
+    let keep_m = separation_m + DEVIATIONS * deviation_m + reach_m;
     let between_m = way_m.norm() - keep_m;
     // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way
     // back.
     let most_m = between_m.max(between_m / 2.0);
     let room_m = ((between_m + ours_m - theirs_m) / 2.0).min(most_m);
     let line_m = oneself.place_m.dot(&outward) + room_m;
-    Other { place_m, keep_m, outward, line_m }
-}
-
-/// Where to fly to on the way to a target: there, or past who is in the way, on the right of it. As everybody keeps to the
-/// right, two that meet do not block each other where there is room on the right.
-pub(crate) fn way_past(
-    from_m: Vector2<f64>,
-    target_m: Vector2<f64>,
-    others: &Others,
-) -> Vector2<f64> {
-    let distance_m = |other: &&Other| (other.place_m - from_m).norm();
-    let in_the_way = others.iter().filter(|other| other.blocks(from_m, target_m));
-    let nearest = in_the_way.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
-    let Some(other) = nearest else { return target_m };
-    let away_m = distance_m(&other).max(f64::EPSILON);
-    // Along the tangent, clockwise as seen from above.
-    let sine = (other.keep_m / away_m).min(1.0);
-    let cosine = (1.0 - sine * sine).sqrt();
-    let ahead = other.outward;
-    let right = Vector2::new(ahead.y, -ahead.x);
-    from_m + (ahead * cosine + right * sine) * (target_m - from_m).norm()
+    let makes_way = |claim: &Claim| claim.is_before(neighbour.system, oneself.rank, oneself.system);
+    let claim = neighbour.claim.filter(makes_way);
+    Other { place_m, separation_m, keep_m, claim, outward, line_m }
 }
 
 #[cfg(test)]

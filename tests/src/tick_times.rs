@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::plan;
 use ardrone_pilot::drive::{Driver, Simulated, Surroundings, Take};
 use autopilot::Vehicle;
-use autopilot::separation::Neighbour;
+use autopilot::separation::{Neighbour, Presence};
 use autopilot::vehicle::{CannotFly, Input, Start, Transmit, VehicleConfig};
 use mock_drone::{World, WorldConfig};
 use nalgebra::Vector2;
@@ -93,7 +93,9 @@ fn ticks(others: u8) -> Result<Vec<Duration>, CannotFly> {
                 place_m,
                 velocity_m_s: Vector2::zeros(),
                 deviation_m: 0.1,
-                airborne: true,
+                separation_m: 1.5,
+                presence: Presence::Flies,
+                claim: None,
             };
             // It is at rest, and believed.
             _ = driver.handle(Input::Neighbour(neighbour), |_, _| {});

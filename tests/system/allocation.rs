@@ -7,7 +7,7 @@ use ardrone_link::WAKE_UP;
 use ardrone_pilot::drive::{Driver, POLL, Surroundings, Take, input};
 use ardrone_pilot::recording::{Header, Recorder};
 use autopilot::Vehicle;
-use autopilot::separation::Neighbour;
+use autopilot::separation::{Claim, Neighbour, Presence, Rank};
 use autopilot::vehicle::{
     Input, NavdataRate, Operator, OperatorOrder, Phase, Place, TagConfig, Transmit, VehicleConfig,
 };
@@ -127,7 +127,18 @@ fn allocations(
 fn hovering(number: u8, at: Duration) -> Neighbour {
     let place_m = world_from_body(Vector2::new(0.0, 4.0), 18.0 * f64::from(number));
     let velocity_m_s = Vector2::zeros();
-    Neighbour { system: 2 + number, at, place_m, velocity_m_s, deviation_m: 0.1, airborne: true }
+    let rank = Rank { system: 2 + number, behind: 0 };
+    let claim = Some(Claim { to_m: -place_m, rank });
+    Neighbour {
+        system: 2 + number,
+        at,
+        place_m,
+        velocity_m_s,
+        deviation_m: 0.1,
+        separation_m: 1.5,
+        presence: Presence::Flies,
+        claim,
+    }
 }
 
 #[test]

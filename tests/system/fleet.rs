@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
+use autopilot::plan::Border;
 use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
 use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
@@ -64,6 +65,98 @@ fn side_by_side(orders: Vec<(Duration, OperatorOrder)>) -> Fleet {
     let mut first = member(0.0, 1);
     first.orders = orders;
     Fleet { members: vec![first, member(3.0, 2)], ..Fleet::default() }
+}
+
+/// Vehicles that fly from one place to another, and stay there for so long, in a fence that is so wide from the middle.
+fn from_to(fence_m: [f64; 2], flights: &[([f64; 2], [f64; 2], u64)], seed: u64) -> Fleet {
+    let [x_m, y_m] = fence_m;
+    let border = Border::polygon(&[[-x_m, -y_m], [x_m, -y_m], [x_m, y_m], [-x_m, y_m]]).unwrap();
+    let members = flights.iter().zip(0..).map(|((from_m, to_m, stay_s), number)| {
+        let mut member = crossing(1, 0.0, 10 * seed + number).members.remove(0);
+        member.start.place_m = (*from_m).into();
+        let [x_m, y_m] = to_m;
+        member.plan = format!("takeoff\nsetStayTime {stay_s}\ngoto {x_m} {y_m} 0.5 0\nland\n");
+        member.pilot.limits.border = border;
+        member
+    });
+    Fleet { members: members.collect(), ..Fleet::default() }
+}
+
+/// Who hovers beside a wall is passed on the other side; two that meet in a corridor pass each other though one is nearer to
+/// the wall on its right; one that hovers in the middle of a corridor makes way, and comes back.
+#[test]
+fn all_arrive_where_there_is_room_to_pass() {
+    let walls = [[5.0, 3.0], [5.0, 4.5], [5.0, 1.8], [5.0, 2.2]];
+    let flights = [
+        [([-4.0, -2.5], [4.0, -2.5], 1), ([0.0, -2.5], [0.0, -2.5], 60)],
+        [([-1.1, 0.7], [2.2, 0.7], 1), ([0.4, -2.6], [-4.0, 3.7], 1)],
+        [([-4.0, 0.0], [4.0, 0.0], 1), ([4.0, 0.0], [-4.0, 0.0], 1)],
+        [([-4.0, 0.0], [4.0, 0.0], 1), ([0.5, 0.0], [0.5, 0.0], 40)],
+    ];
+    for (fence_m, flights) in walls.into_iter().zip(&flights) {
+        for seed in 0..3 {
+            let flight = flown(&from_to(fence_m, flights, seed));
+            assert!(flight.keeps_apart() && flight.is_complete(), "{fence_m:?} {seed}: {flight:?}");
+        }
+    }
+}
+
+/// Two that stand a metre apart: the one flies nowhere, and the other not beside it.
+#[test]
+fn nobody_takes_off_beside_one_that_stands_there() {
+    let still = |x_m| ([x_m, 0.0], [x_m, 0.0], 2);
+    let flight = flown(&from_to([5.0, 5.0], &[still(0.0), still(1.0)], 1));
+    for (member, other) in flight.members.iter().zip([2, 1]) {
+        let reason = format!("vehicle {other} is 1.0 m away: move one of the two first");
+        let refused = Outcome::PreflightRefused { reasons: vec![reason] };
+        assert_eq!(member.outcome, Some(refused));
+    }
+    assert!(flown(&from_to([5.0, 5.0], &[still(0.0), still(1.7)], 1)).is_complete());
+}
+
+/// The first shuttles past the second one, which takes off for another flight. Each hears the other a second late.
+#[test]
+fn who_takes_off_has_told_those_that_come_past() {
+    for (y_m, speed_m_s, starts_s) in
+        [(0.270_196_332_637, 2.2, 21.890_546_659_57), (0.161_407_454_412, 2.2, 22.126_146_678_08)]
+    {
+        let legs = format!("goto 5 {y_m} 0.5 0\ngoto -5 {y_m} 0.5 0\n").repeat(6);
+        let mut fleet =
+            from_to([9.0, 9.0], &[([-5.0, 3.5], [0.0, 0.0], 0), ([0.0; 2], [0.0; 2], 0)], 1);
+        fleet.members[0].plan =
+            format!("setSpeed {speed_m_s}\nsetStayTime 0.5\ntakeoff\n{legs}land\n");
+        fleet.members[1].plan = "takeoff\nland\n".to_owned();
+        let again = system_tests::plan("takeoff\nsetStayTime 8\ngoto 0 0 0.5 0\nland\n");
+        let start = OperatorOrder::Start { when_ready: true };
+        fleet.members[1].orders = [(starts_s - 2.0, OperatorOrder::Load(again)), (starts_s, start)]
+            .map(|(at_s, order)| (Duration::from_secs_f64(at_s), order))
+            .to_vec();
+        fleet.air.delay = Duration::from_secs(1);
+        let flight = flown(&fleet);
+        assert!(flight.keeps_apart(), "{y_m} {starts_s}: {flight:?}");
+    }
+}
+
+/// The one keeps 0.8 m from others, the other 3 m: both make the room for that.
+#[test]
+fn two_with_different_separations_keep_the_larger_one() {
+    let mut fleet = side_by_side(Vec::new());
+    fleet.members[1].start.place_m.x = 3.2;
+    fleet.members[0].pilot.separation_m = 0.8;
+    fleet.members[1].pilot.separation_m = 3.0;
+    let flight = flown(&fleet);
+    let is_crowded = [0, 1].map(|number| vetoed(&flight, number, Veto::Crowded));
+    assert!(is_crowded == [false; 2] && flight.nearest_m() > 2.7, "{flight:?}");
+}
+
+/// A tag that is seen again may move what a vehicle believes of its place by so much.
+#[test]
+fn a_step_of_a_metre_in_what_one_tells_lands_nobody() {
+    let still = |x_m| ([x_m, 0.0], [x_m, 0.0], 20);
+    let mut fleet = from_to([9.0, 5.0], &[still(-3.5), still(0.0), still(3.5)], 1);
+    fleet.air.lie = Some((Duration::from_secs(10), Vector2::new(1.0, 0.0)));
+    let flight = flown(&fleet);
+    assert!(flight.keeps_apart() && flight.is_complete(), "{flight:?}");
 }
 
 /// Orders from the tenth second on, every tenth of a second for so long, and then to go on.

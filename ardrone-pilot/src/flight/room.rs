@@ -5,7 +5,7 @@
 use std::sync::{Arc, Mutex, TryLockError};
 use std::time::{Duration, Instant};
 
-use autopilot::separation::Neighbour;
+use autopilot::separation::{Neighbour, Presence};
 
 /// What one vehicle has told.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,8 @@ impl Seat {
     pub(super) fn park(&self) {
         self.write(|own| {
             if let Some(told) = own {
-                (told.is_parked, told.neighbour.airborne) = (true, false);
+                (told.is_parked, told.neighbour.presence) = (true, Presence::Stands);
+                told.neighbour.claim = None;
             }
         });
     }
@@ -91,24 +92,36 @@ mod tests {
 
     const MS: Duration = Duration::from_millis(1);
 
-    fn at(system: u8, ms: u32, airborne: bool) -> Neighbour {
+    fn at(system: u8, ms: u32, presence: Presence) -> Neighbour {
         let (place_m, velocity_m_s) = (Vector2::new(1.0, 2.0), Vector2::new(0.5, 0.0));
-        Neighbour { system, at: ms * MS, place_m, velocity_m_s, deviation_m: 0.1, airborne }
+        Neighbour {
+            system,
+            at: ms * MS,
+            place_m,
+            velocity_m_s,
+            deviation_m: 0.1,
+            separation_m: 1.5,
+            presence,
+            claim: None,
+        }
     }
 
     #[test]
     fn each_hears_the_others_once_by_its_own_clock() {
         let mut seats: Vec<Seat> = Seat::in_one_room(3).collect();
         let [first, later] = [Instant::now(), Instant::now() + 500 * MS];
-        seats[0].tell(first, at(1, 700, true));
-        seats[1].tell(later, at(2, 300, true));
+        seats[0].tell(first, at(1, 700, Presence::Flies));
+        seats[1].tell(later, at(2, 300, Presence::Flies));
         let heard = seats[2].hear(first, 900 * MS).collect::<Vec<_>>();
-        assert_eq!(heard[0], at(1, 700, true));
+        assert_eq!(heard[0], at(1, 700, Presence::Flies));
         assert!((800 * MS..900 * MS).contains(&heard[1].at) && heard[1].system == 2, "{heard:?}");
         assert_eq!(seats[2].hear(first, 900 * MS).count(), 0, "nothing is new");
         // What was told before the hearer began was then.
-        assert_eq!(seats[1].hear(later + 700 * MS, 900 * MS).next(), Some(at(1, 0, true)));
-        seats[0].tell(first, at(1, 730, true));
+        assert_eq!(
+            seats[1].hear(later + 700 * MS, 900 * MS).next(),
+            Some(at(1, 0, Presence::Flies))
+        );
+        seats[0].tell(first, at(1, 730, Presence::Flies));
         assert_eq!(seats[2].hear(first, 900 * MS).count(), 1);
     }
 
@@ -118,10 +131,10 @@ mod tests {
         let start = Instant::now();
         seats[0].park();
         assert_eq!(seats[1].hear(start, MS).count(), 0, "it was never there");
-        seats[0].tell(start, at(1, 10, true));
+        seats[0].tell(start, at(1, 10, Presence::Flies));
         seats[0].park();
         for ms in [500, 600] {
-            assert_eq!(seats[1].hear(start, ms * MS).next(), Some(at(1, ms, false)));
+            assert_eq!(seats[1].hear(start, ms * MS).next(), Some(at(1, ms, Presence::Stands)));
         }
     }
 }

@@ -17,7 +17,47 @@ pub struct Neighbour {
     x_m_s: Option<f64>,
     y_m_s: Option<f64>,
     deviation_m: Option<f64>,
-    airborne: bool,
+    separation_m: Option<f64>,
+    presence: Presence,
+    claim: Option<Claim>,
+}
+
+/// As [`separation::Presence`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Presence {
+    Stands,
+    Starts,
+    Flies,
+}
+
+impl From<separation::Presence> for Presence {
+    fn from(presence: separation::Presence) -> Self {
+        match presence {
+            separation::Presence::Stands => Self::Stands,
+            separation::Presence::Starts => Self::Starts,
+            separation::Presence::Flies => Self::Flies,
+        }
+    }
+}
+
+impl From<Presence> for separation::Presence {
+    fn from(presence: Presence) -> Self {
+        match presence {
+            Presence::Stands => Self::Stands,
+            Presence::Starts => Self::Starts,
+            Presence::Flies => Self::Flies,
+        }
+    }
+}
+
+/// As [`separation::Claim`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Claim {
+    x_m: Option<f64>,
+    y_m: Option<f64>,
+    system: u8,
+    behind: u8,
 }
 
 impl From<&separation::Neighbour> for Neighbour {
@@ -31,7 +71,14 @@ impl From<&separation::Neighbour> for Neighbour {
             x_m_s: finite(heard.velocity_m_s.x),
             y_m_s: finite(heard.velocity_m_s.y),
             deviation_m: finite(heard.deviation_m),
-            airborne: heard.airborne,
+            separation_m: finite(heard.separation_m),
+            presence: heard.presence.into(),
+            claim: heard.claim.map(|separation::Claim { to_m, rank }| Claim {
+                x_m: finite(to_m.x),
+                y_m: finite(to_m.y),
+                system: rank.system,
+                behind: rank.behind,
+            }),
         }
     }
 }
@@ -46,7 +93,12 @@ impl Neighbour {
             place_m: Vector2::new(number(self.x_m), number(self.y_m)),
             velocity_m_s: Vector2::new(number(self.x_m_s), number(self.y_m_s)),
             deviation_m: number(self.deviation_m),
-            airborne: self.airborne,
+            separation_m: number(self.separation_m),
+            presence: self.presence.into(),
+            claim: self.claim.map(|Claim { x_m, y_m, system, behind }| separation::Claim {
+                to_m: Vector2::new(number(x_m), number(y_m)),
+                rank: separation::Rank { system, behind },
+            }),
         }
     }
 }
@@ -57,18 +109,27 @@ mod tests {
 
     #[test]
     fn what_is_read_was_heard() {
-        let heard = separation::Neighbour {
+        let heard = |presence| separation::Neighbour {
             system: 3,
             at: Duration::from_nanos(1_234_567_890_123_456_789),
             place_m: Vector2::new(0.1, -2.0 / 3.0),
             velocity_m_s: Vector2::new(1e-3, 4.0),
             deviation_m: 0.25,
-            airborne: true,
+            separation_m: 1.25,
+            presence,
+            claim: Some(separation::Claim {
+                to_m: Vector2::new(3.0, -0.1),
+                rank: separation::Rank { system: 2, behind: 1 },
+            }),
         };
         let again = |heard: &separation::Neighbour| {
             let text = serde_json::to_string(&Neighbour::from(heard)).unwrap();
             serde_json::from_str::<Neighbour>(&text).unwrap().heard()
         };
+        for presence in [separation::Presence::Stands, separation::Presence::Starts] {
+            assert_eq!(again(&heard(presence)), heard(presence));
+        }
+        let heard = heard(separation::Presence::Flies);
         assert_eq!(again(&heard), heard);
         let nonsense = separation::Neighbour { deviation_m: f64::INFINITY, ..heard };
         assert!(again(&nonsense).deviation_m.is_nan());
@@ -86,7 +147,9 @@ mod tests {
             x_m_s: None,
             y_m_s: None,
             deviation_m: None,
-            airborne: false,
+            separation_m: None,
+            presence: Presence::Stands,
+            claim: None,
         });
         let keys = |value: &serde_json::Value| -> Vec<String> {
             value.as_object().unwrap().keys().cloned().collect()

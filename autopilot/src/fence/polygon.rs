@@ -255,12 +255,12 @@ impl Polygon {
         walls.fold(none, nearer)
     }
 
-    /// All walls from inside; outside the one that is to be passed back.
+    /// All walls; from outside the one that is to be passed back, and the others as they are seen from where it is: who is just
+    /// outside one side of a corner can fly over the other.
     pub(super) fn walls(&self, place_m: Vector2<f64>) -> impl Iterator<Item = Wall> + Clone + '_ {
-        let is_inside = self.is_inside(place_m);
-        let inside = self.sides().filter(move |_| is_inside);
-        let passed = (!is_inside).then(|| self.nearest_wall(place_m));
-        inside.map(move |side| wall(&side, place_m, true)).chain(passed)
+        let passed = (!self.is_inside(place_m)).then(|| self.nearest_wall(place_m));
+        let from_m = passed.map_or(place_m, |wall| place_m + wall.outward * wall.distance_m);
+        self.sides().map(move |side| wall(&side, from_m, true)).chain(passed)
     }
 
     pub(super) fn room_m(

@@ -294,3 +294,16 @@ fn a_border_is_told_as_it_was_given() {
     assert_eq!(Border::circle(4.0).sides_m().count(), 360);
     assert_eq!(l.how_far(at(5.0, 2.0)), "1.00 m outside the fence");
 }
+
+#[test]
+fn just_outside_one_side_the_others_are_still_there() {
+    let square = [[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]];
+    let border = Border::polygon(&square).unwrap();
+    for x_m in [3.99, 4.01] {
+        let ahead_m = border
+            .walls(Vector2::new(x_m, 3.9))
+            .filter_map(|wall| (wall.outward.y > 0.9).then_some(wall.distance_m));
+        let least_m = ahead_m.fold(f64::INFINITY, f64::min);
+        assert!((least_m - 0.1).abs() < 1e-9, "{x_m}: {least_m}");
+    }
+}

@@ -7,11 +7,11 @@ use kinematics::{Pose, Sticks, world_from_body};
 use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
 
-use super::stopping::{Stopping, stopping_inside_m_s};
+use super::stopping::{Stopping, stopping_inside_m_s, straight_on_m_s};
 use super::{INSIDE_M, Situation, stopping_place};
 use crate::agent::AgentCommand;
 use crate::fence::{Border, Wall, across};
-use crate::separation::{Other, Others, way_past};
+use crate::separation::{Claim, Other, Others, Progress, Rank, makes_way, waits, way_past};
 
 /// The reference is never further from the drone than this.
 const LEASH_M: f64 = 0.6;
@@ -29,6 +29,8 @@ const TOLD: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Apart {
     course: Option<Course>,
+    progress: Option<Progress>,
+    claim: Option<Claim>,
     crowded_since: Option<Duration>,
     told_until: Duration,
     /// Where manual control was stopped, until it leads elsewhere.
@@ -43,6 +45,11 @@ impl Apart {
 
     pub(super) fn course(&self) -> Option<&Course> {
         self.course.as_ref()
+    }
+
+    /// The way that the drone claims from others.
+    pub(super) fn claim(&self) -> Option<Claim> {
+        self.claim
     }
 
     /// Whether others have been too near for too long.
@@ -60,6 +67,7 @@ impl Apart {
         others: &Others,
         border: &Border,
         limits: &MotionLimits,
+        system: u8,
     ) -> (AgentCommand, bool) {
         let target = match command {
             AgentCommand::GoTo(target) => {
@@ -70,16 +78,25 @@ impl Apart {
                 *self.stop.get_or_insert_with(|| stopping_place(&now.stops_from()))
             }
             _ => {
-                (self.stop, self.course) = (None, None);
+                (self.stop, self.course, self.progress, self.claim) = (None, None, None, None);
                 return (command, false);
             }
         };
+        let is_stopped = command == AgentCommand::Sticks;
         let here_m = across(&now.pose);
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
         let begun = Course::new(here_m, Vector2::new(right_m_s, forward_m_s));
         let course = self.course.get_or_insert(begun);
         let target_m = across(&target);
-        let past_m = way_past(here_m, target_m, others);
+        let aside = makes_way(here_m, others, border);
+        let waits = aside.is_none() && waits(here_m, target_m, others);
+        let rests = is_stopped || waits || aside.is_some();
+        let progress = self.progress.get_or_insert(Progress::new(now.now, target_m));
+        let is_held_up = progress.is_held_up(now.now, here_m, target_m, rests);
+        let own = Claim { to_m: target_m, rank: Rank { system, behind: 0 } };
+        self.claim = aside.or(Some(own).filter(|_| is_held_up && !waits));
+        let goal_m = aside.map_or(if waits { here_m } else { target_m }, |aside| aside.to_m);
+        let past_m = way_past(here_m, goal_m, others, border);
         let wanted_m_s = course.velocity_to(&past_m, limits).cap_magnitude(limits.speed_m_s);
         let foremost_m = course.position_m;
         let nearer = |other: &Other| {
@@ -91,6 +108,9 @@ impl Apart {
         let walls = border.walls(if is_behind { here_m } else { foremost_m });
         let all = lines.clone().chain(walls.clone());
         let kept_m_s = stopping_inside_m_s(wanted_m_s, course.velocity_m_s, &all);
+        // Between two lines that meet ahead it is slow, but does not stay: others need not leave it more.
+        let is_trapped = kept_m_s == Vector2::zeros();
+        let kept_m_s = if is_trapped { straight_on_m_s(wanted_m_s, all) } else { kept_m_s };
         let back = |wall: Wall| wall.outward * (wall.distance_m * BACK_1_S).clamp(-BACK_M_S, 0.0);
         let back_m_s = lines.map(back).sum::<Vector2<f64>>().cap_magnitude(BACK_M_S);
         let led_m_s = if back_m_s == Vector2::zeros() {
@@ -100,7 +120,6 @@ impl Apart {
         };
         course.advance(led_m_s, limits, now.tick_s);
         course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
-        let is_stopped = command == AgentCommand::Sticks;
         if is_stopped || past_m != target_m || (led_m_s - wanted_m_s).norm() > TOLD_M_S {
             self.told_until = now.now + TOLD;
         }

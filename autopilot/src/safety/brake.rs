@@ -142,7 +142,7 @@ mod tests {
     use super::*;
     use crate::fence::Border;
     use crate::safety::tests::FINE;
-    use crate::separation::{Neighbour, Neighbours, Oneself};
+    use crate::separation::{Neighbour, Neighbours, Oneself, Presence};
     use crate::wind::Wind;
 
     const FENCE: FlightLimits = FlightLimits::new(Border::circle(4.0), 0.3, 3.0);
@@ -208,12 +208,20 @@ mod tests {
             place_m: here_m + Vector2::new(away_m, 0.0),
             velocity_m_s: Vector2::zeros(),
             deviation_m: 0.0,
-            airborne: true,
+            separation_m: 1.5,
+            presence: Presence::Flies,
+            claim: None,
         };
         neighbours.hear(neighbour).unwrap();
         let velocity_m_s = Vector2::new(2.0, 0.0);
-        let oneself =
-            Oneself { place_m: here_m, velocity_m_s, deviation_m: 0.0, separation_m: 1.5 };
+        let oneself = Oneself {
+            system: 1,
+            rank: None,
+            place_m: here_m,
+            velocity_m_s,
+            deviation_m: 0.0,
+            separation_m: 1.5,
+        };
         let now = Situation { soon, ..FINE };
         let mut brake = Brake::of(&now, 0.0, &FENCE);
         brake.keep_apart(&now, &neighbours.others(FINE.now, &oneself));

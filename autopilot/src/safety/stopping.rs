@@ -56,9 +56,34 @@ pub(crate) fn stopping_inside_m_s(
     if is_trapped { Vector2::zeros() } else { kept_m_s }
 }
 
+/// A wanted velocity as far as a drone can stop from it before all walls.
+pub(super) fn straight_on_m_s(
+    wanted_m_s: Vector2<f64>,
+    walls: impl Iterator<Item = Wall>,
+) -> Vector2<f64> {
+    let share = |wall: Wall| {
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(wall.distance_m);
+        let outward_m_s = wanted_m_s.dot(&wall.outward);
+        if outward_m_s > most_m_s { most_m_s / outward_m_s } else { 1.0 }
+    };
+    wanted_m_s * walls.map(share).fold(1.0, f64::min)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn straight_on_it_flies_as_fast_as_every_wall_allows() {
+        let wall = |distance_m, x, y| Wall { distance_m, outward: Vector2::new(x, y) };
+        let wanted_m_s = Vector2::new(1.0, 0.0);
+        let left_m_s = |walls: &[Wall]| straight_on_m_s(wanted_m_s, walls.iter().copied()).x;
+        assert!((left_m_s(&[wall(0.0, 0.0, 1.0), wall(0.0, -1.0, 0.0)]) - 1.0).abs() < 1e-9);
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(0.1);
+        let ahead = [wall(0.1, 0.8, 0.6), wall(0.2, 0.8, -0.6)];
+        assert!((left_m_s(&ahead) - most_m_s / 0.8).abs() < 1e-9);
+        assert!(left_m_s(&[wall(-0.1, 0.8, 0.6)]).abs() < 1e-9);
+    }
 
     #[test]
     fn the_largest_speed_needs_the_whole_room() {

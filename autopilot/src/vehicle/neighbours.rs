@@ -4,10 +4,13 @@ use std::time::Duration;
 
 use estimator::{Prediction, Start};
 
-use super::{Refused, Vehicle};
+use super::{Phase, Refused, SETTLE_TIME, Vehicle};
 use crate::agent::AgentCommand;
 use crate::safety::{Situation, Veto};
-use crate::separation::{Neighbour, NotHeard, Oneself};
+use crate::separation::{Neighbour, NotHeard, Oneself, Presence};
+
+/// So long before it takes off a vehicle tells the others that it will.
+const TELLS_TIME: Duration = Duration::from_secs(1);
 
 impl Vehicle {
     /// Another vehicle tells of itself.
@@ -29,8 +32,29 @@ impl Vehicle {
             place_m: estimate.position_m.xy(),
             velocity_m_s: estimate.velocity_m_s.xy(),
             deviation_m: self.flight.estimator.horizontal_deviation_m(estimate.at),
-            airborne: !self.on_ground(),
+            separation_m: self.config.separation_m,
+            presence: self.presence(),
+            claim: self.flight.safety.claim(),
         })
+    }
+
+    /// Whether it is in the air. While it is prepared for a flight it is about to be, so that the others have heard it when it
+    /// lifts.
+    fn presence(&self) -> Presence {
+        let is_prepared = self.life.phase() == Phase::Trimming && self.life.departure().is_some();
+        if !self.on_ground() {
+            Presence::Flies
+        } else if is_prepared || self.life.phase() == Phase::Flying {
+            Presence::Starts
+        } else {
+            Presence::Stands
+        }
+    }
+
+    /// How long a drone is watched on the ground before it is flown: where there are others, until they have heard of it.
+    pub(super) fn settle_time(&self) -> Duration {
+        let is_alone = self.config.peers.is_empty() && self.neighbours.is_empty();
+        if is_alone { SETTLE_TIME } else { TELLS_TIME }
     }
 
     /// In a common frame the next flight starts where the last one ended, and as exactly as that is known.
@@ -46,6 +70,8 @@ impl Vehicle {
     /// This vehicle among the others.
     pub(super) fn oneself(&self, now: Duration, state: &Prediction) -> Oneself {
         Oneself {
+            system: self.config.system,
+            rank: self.flight.safety.claim().map(|claim| claim.rank),
             place_m: state.position_m.xy(),
             velocity_m_s: state.velocity_m_s.xy(),
             deviation_m: self.flight.estimator.horizontal_deviation_m(now),
@@ -63,6 +89,6 @@ impl Vehicle {
     ) -> (AgentCommand, Option<Veto>) {
         let others = self.neighbours.others(now, &self.oneself(now, state));
         let limits = self.course_limits();
-        self.flight.safety.keep_apart(command, situation, &others, &limits)
+        self.flight.safety.keep_apart(command, situation, &others, &limits, self.config.system)
     }
 }

@@ -92,7 +92,7 @@ pub enum NotReady {
         /// The number of its MAVLink system.
         system: u8,
     },
-    /// Another vehicle flies too near to where this one stands.
+    /// Another vehicle flies or stands too near to where this one stands, or is about to take off there.
     PeerNear {
         /// The number of its MAVLink system.
         system: u8,
@@ -155,7 +155,7 @@ impl fmt::Display for NotReady {
                 )
             }
             Self::PeerNear { system, away_m } => {
-                write!(f, "vehicle {system} flies {away_m:.1} m away: let it fly elsewhere first")
+                write!(f, "vehicle {system} is {away_m:.1} m away: move one of the two first")
             }
         }
     }

@@ -2,6 +2,7 @@ mod bench;
 mod by_hand;
 mod endings;
 mod flight_time;
+mod neighbours;
 mod orders;
 mod phases;
 mod sightings;

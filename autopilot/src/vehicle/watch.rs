@@ -89,10 +89,13 @@ impl Vehicle {
                 }
             }
             Preparation::Trimming(watched) if lasts(watched.since, SETTLE_TIME) => {
-                if departure.is_some() {
-                    self.take_off_or_refuse(now, self.packets_hz(now, watched));
-                } else {
-                    self.life.enter(Life::Standby { since: now, has_flown: false });
+                match departure {
+                    Some(Departure { ordered, .. }) => {
+                        if lasts(watched.since.max(ordered), self.settle_time()) {
+                            self.take_off_or_refuse(now, self.packets_hz(now, watched));
+                        }
+                    }
+                    None => self.life.enter(Life::Standby { since: now, has_flown: false }),
                 }
             }
             Preparation::Trimming(_) => {}

@@ -1,0 +1,67 @@
+//! Other vehicles in the room, as one vehicle hears them and tells of itself.
+
+use nalgebra::Vector2;
+
+use super::bench::{Bench, SECOND, START};
+use super::*;
+use crate::separation::{Neighbour, Presence};
+
+const STAY: &str = "takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland";
+
+/// Lets time pass in which another vehicle is heard so far to the right.
+fn hears(bench: &mut Bench, x_m: f64, presence: Presence, time: Duration) {
+    let end = bench.now + time;
+    while bench.now < end {
+        let neighbour = Neighbour {
+            system: 2,
+            at: bench.now,
+            place_m: Vector2::new(x_m, 0.0),
+            velocity_m_s: Vector2::zeros(),
+            deviation_m: 0.0,
+            separation_m: 1.5,
+            presence,
+            claim: None,
+        };
+        assert_eq!(bench.vehicle.handle(bench.now, Input::Neighbour(neighbour)), Ok(()));
+        bench.step();
+    }
+}
+
+fn presence(bench: &Bench) -> Option<Presence> {
+    bench.vehicle.as_neighbour(bench.now).map(|told| told.presence)
+}
+
+#[test]
+fn nobody_takes_off_beside_another_one() {
+    for presence in [Presence::Stands, Presence::Starts, Presence::Flies] {
+        let mut bench = Bench::standing_by(STAY);
+        hears(&mut bench, 1.2, presence, SECOND);
+        let near = NotReady::PeerNear { system: 2, away_m: 1.2 };
+        assert_eq!(bench.vehicle.readiness(), [near.clone()], "it is told before");
+        let refused = Refused::NotReady(vec![near.to_string()]);
+        assert_eq!(bench.order(START), Err(refused));
+    }
+}
+
+#[test]
+fn who_takes_off_tells_so_for_a_second_before_and_is_not_delayed_alone() {
+    let lifts_after = |is_heard: bool| {
+        let mut bench = Bench::standing_by(STAY);
+        if is_heard {
+            hears(&mut bench, 4.0, Presence::Stands, SECOND);
+        }
+        assert_eq!(presence(&bench), Some(Presence::Stands));
+        bench.accepted(START);
+        let ordered = bench.now;
+        bench.until(2 * SECOND, |bench| {
+            assert_eq!(presence(bench), Some(Presence::Starts));
+            bench.phase() == Phase::Flying
+        });
+        assert_eq!(presence(&bench), Some(Presence::Starts));
+        bench.rises();
+        bench.run(SECOND / 2);
+        assert_eq!(presence(&bench), Some(Presence::Flies));
+        bench.now - ordered
+    };
+    assert!(lifts_after(true) >= SECOND + SECOND / 2 && lifts_after(false) < SECOND + SECOND / 5);
+}
