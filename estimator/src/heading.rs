@@ -225,8 +225,9 @@ impl Heading {
         self.turn_deg_s
     }
 
-    /// The drone's compass has restarted: its next heading is the new zero.
+    /// The drone's compass has restarted. The drone has stood still, or turned unseen: it has the heading that it had last.
     pub(crate) fn handle_restart(&mut self) {
+        self.start_deg = self.newest_deg();
         self.baseline_deg = None;
         self.measured.clear();
         self.turn_deg_s = 0.0;

@@ -7,8 +7,10 @@ use autopilot::plan::Border;
 use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
 use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
+use mock_drone::scenario::Scenario;
 use nalgebra::Vector2;
 use system_tests::fleet::{Fleet, FleetFlight, Member, NEAREST_M, crossing};
+use system_tests::plan;
 
 const LIMIT: Duration = Duration::from_mins(4);
 /// A separation that separates nobody.
@@ -126,7 +128,7 @@ fn who_takes_off_has_told_those_that_come_past() {
         fleet.members[0].plan =
             format!("setSpeed {speed_m_s}\nsetStayTime 0.5\ntakeoff\n{legs}land\n");
         fleet.members[1].plan = "takeoff\nland\n".to_owned();
-        let again = system_tests::plan("takeoff\nsetStayTime 8\ngoto 0 0 0.5 0\nland\n");
+        let again = plan("takeoff\nsetStayTime 8\ngoto 0 0 0.5 0\nland\n");
         let start = OperatorOrder::Start { when_ready: true };
         fleet.members[1].orders = [(starts_s - 2.0, OperatorOrder::Load(again)), (starts_s, start)]
             .map(|(at_s, order)| (Duration::from_secs_f64(at_s), order))
@@ -234,7 +236,7 @@ fn nobody_takes_off_who_does_not_hear_the_others() {
     let flight = flown(&fleet);
     for (member, other) in flight.members.iter().zip([2, 1]) {
         let reason = format!(
-            "vehicle {other} in the same room is not heard: start its pilot, or leave it out"
+            "vehicle {other} in the same room is not heard: switch its drone on and start its pilot, or leave it out"
         );
         let refused = Outcome::PreflightRefused { reasons: vec![reason] };
         assert_eq!(member.outcome, Some(refused));
@@ -249,11 +251,31 @@ fn targets_are_places_in_the_common_frame_also_in_the_next_flight() {
     fleet.members[0].plan = "takeoff\ngoto 0 2 0.5 45\nland\n".to_owned();
     let there_m = flown(&fleet).places_m[0].xy();
     assert!((there_m - Vector2::new(0.0, 2.0)).norm() < 0.5, "{there_m}");
-    let back = system_tests::plan("takeoff\ngoto -1.5 0 0.5 0\nland\n");
+    let back = plan("takeoff\ngoto -1.5 0 0.5 0\nland\n");
     let start = OperatorOrder::Start { when_ready: true };
     fleet.members[0].orders = [(30, OperatorOrder::Load(back)), (31, start)]
         .map(|(s, order)| (Duration::from_secs(s), order))
         .to_vec();
     let there_m = flown(&fleet).places_m[0].xy();
     assert!((there_m - Vector2::new(-1.5, 0.0)).norm() < 0.7, "{there_m}");
+}
+
+/// A battery is changed between two flights: the drone, which lies turned, begins with a new compass.
+#[test]
+fn a_drone_that_restarts_on_the_ground_stands_as_it_landed() {
+    let mut member = side_by_side(Vec::new()).members.remove(0);
+    member.start = Start { place_m: Vector2::new(-3.0, 0.0), heading_deg: 0.0, deviation_m: 0.0 };
+    member.plan = "takeoff\ngoto -3 0 0 180\nland\n".to_owned();
+    member.world.scenario = Scenario::parse("restart", "+25 restart\n").unwrap();
+    let again = plan("takeoff\ngoto -3 2 0 180\nland\n");
+    let at = Duration::from_secs;
+    member.orders = vec![
+        (at(45), OperatorOrder::Load(again)),
+        (at(46), OperatorOrder::Start { when_ready: true }),
+        // Until then it flies.
+        (at(90), OperatorOrder::Clear),
+    ];
+    let flight = flown(&Fleet { members: vec![member], ..Fleet::default() });
+    let place_m = flight.places_m[0].xy();
+    assert!((place_m - Vector2::new(-3.0, 2.0)).norm() < 0.5, "{place_m}");
 }

@@ -197,6 +197,21 @@ fn a_signal_lands_all() {
     assert_eq!(fleet.end(), Some(130));
 }
 
+/// It lies on the floor, and everybody knows where.
+#[test]
+fn the_others_fly_on_beside_one_whose_motors_are_cut() {
+    let stay = |x_m: f64| format!("takeoff\nsetStayTime 6\ngoto {x_m} 0 0 0\nland\n");
+    let files = Files::new(&[("left", -2.5, &stay(-2.5)), ("right", 2.5, &stay(2.5))]);
+    let mut fleet = Ordered::start(&files);
+    fleet.until(|object| object["vehicle"] == "right" && object["step"] == 2);
+    fleet.order(&json!({ "id": 1, "vehicle": "right", "order": "cut" }));
+    let end = fleet.until(|object| object["type"] == "end");
+    assert_eq!((&end["vehicle"], &end["exit_status"]), (&json!("right"), &json!(50)), "at once");
+    let end = fleet.until(|object| object["type"] == "end");
+    assert_eq!((&end["vehicle"], &end["exit_status"]), (&json!("left"), &json!(0)), "{end}");
+    assert_eq!(fleet.end(), Some(50));
+}
+
 /// Nobody knows where the second one is.
 #[test]
 fn who_does_not_hear_all_others_stays_on_the_ground() {
@@ -270,6 +285,26 @@ fn the_page_shows_each_vehicle_with_the_others_and_lands_all() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
 }
 
+#[test]
+fn a_fence_of_a_fleet_changes_only_what_it_says() {
+    let files = Files::new(&[("left", 0.0, "takeoff\ngoto 0 1 1.5 0\nland\n")]);
+    let text = std::fs::read_to_string(files.path()).unwrap();
+    std::fs::write(files.0.path().join("low.toml"), "[fence]\nceiling_m = 1.0\n").unwrap();
+    let low = text.replace("name = \"test\"", "config = \"low.toml\"");
+    for fence in
+        ["", "[fence]\nradius_m = 6.0\n", "[fence]\npolygon_m = [[-3, -3], [3, -3], [0, 4]]\n"]
+    {
+        std::fs::write(files.path(), format!("{low}\n{fence}")).unwrap();
+        let (status, said) = check(files.path().as_ref());
+        assert!(status == Some(20) && said.contains("ceiling"), "{fence}: {said}");
+    }
+    std::fs::write(files.path(), format!("{low}\n[fence]\nceiling_m = 3.0\n")).unwrap();
+    assert_eq!(check(files.path().as_ref()).0, Some(0));
+    let config =
+        program("ardrone-pilot").args(["check", &files.path(), "--config", "x.toml"]).output();
+    assert_eq!(config.unwrap().status.code(), Some(2));
+}
+
 /// As QGroundControl tells vehicles apart.
 #[test]
 fn each_vehicle_is_a_mavlink_system_of_its_own() {
@@ -309,6 +344,11 @@ fn a_fleet_is_checked_as_it_would_fly() {
         "{said}"
     );
     assert!(said.ends_with("fleet.toml can be flown\n"), "{said}");
+    // One that has no plan stands there, and is heard.
+    let waits =
+        Files::new(&[("left", -2.5, ""), ("right", 2.5, "takeoff\ngoto 2.5 1 0 0\nland\n")]);
+    let (status, said) = check(waits.path().as_ref());
+    assert!(status == Some(0) && said.ends_with("fleet.toml can be flown\n"), "{said}");
     // Both want to one place, and neither leaves it: only one of them can be there.
     let to = "takeoff\nsetStayTime 120\ngoto 0 0 0 0\nland\n";
     let files = Files::new(&[("left", -2.5, to), ("right", 2.5, to)]);
@@ -326,7 +366,10 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
         ("[[vehicle]]\nname = \"a\"\n", "line 1, column 1"),
         ("[[vehicle]]\nname = \"a\"\nstart = []\n", "a has no start"),
         ("[[vehicle]]\nname = \"a\"\nstart = [11, 0, 0]\n", "a starts 1.00 m outside the fence"),
-        ("[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nsystem = 0\n", "no number of its own"),
+        (
+            "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nsystem = 0\n",
+            "a would be the MAVLink system 0",
+        ),
         (
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplan = \"no.txt\"\n",
             "cannot read the plan",

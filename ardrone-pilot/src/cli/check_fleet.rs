@@ -10,6 +10,7 @@ use autopilot::vehicle::Start;
 use serde_json::{Value, json};
 
 use super::arguments::CheckPlan;
+use super::fleet::own_drones;
 use super::{CommandError, terminal};
 use crate::fleet::{self, Fleet, FleetError, Meeting, Member, SimulatedFleet, SimulatedMember};
 use crate::{fleet_drawing, json};
@@ -22,6 +23,9 @@ pub(super) fn is_fleet(path: &Path) -> bool {
 /// Checks a fleet, prints the findings, and draws its ways if asked to.
 pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let name = arguments.plan.display().to_string();
+    if arguments.config.is_some() || arguments.tags || !arguments.tag.is_empty() {
+        return Err(CommandError::OfPlans);
+    }
     let fleet = Fleet::read(&arguments.plan, arguments.z_origin.into())?;
     let simulated = fleet::fly(&fleet).map_err(FleetError::from)?;
     let report = Report { name: &name, fleet: &fleet, simulated: &simulated };
@@ -165,6 +169,9 @@ impl fmt::Display for Report<'_> {
             let how = if is_flown(member.alone.outcome.as_ref()) { " with the others" } else { "" };
             let outcome = outcome(member.outcome.as_ref());
             writeln!(f, "{name}: does not fly its plan to the end{how}: {outcome}")?;
+        }
+        if let Err(shared) = own_drones(self.fleet) {
+            writeln!(f, "only with simulated drones: {shared}")?;
         }
         let verdict = match self.short().count() {
             0 => "can be flown".to_owned(),

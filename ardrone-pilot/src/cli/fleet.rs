@@ -8,7 +8,7 @@ use autopilot::plan::{Plan, Step};
 use autopilot::vehicle::{Start, Telemetry, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{Air, MockDrone, Ports};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::arguments::FlyFleet;
 use super::crew::Crew;
@@ -23,12 +23,12 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
-use crate::browser::{self, Browser, Listener, PageConfig, Planning, SettingsFile};
+use crate::browser::{self, Listener, PageConfig, Planning, SettingsFile};
 use crate::fleet::{Fleet, Member};
-use crate::flight::{Beside, Content, FinishedFlight, Flight, Message, Seat};
+use crate::flight::{Beside, Content, FinishedFlight, Flight, FlightError, Message, Seat};
 use crate::json;
 use crate::mavlink::MavlinkServer;
-use crate::recording::{Header, Recorder, Recording, file_name};
+use crate::recording::{Header, Recorded, Recorder, Recording, file_name};
 use crate::runtime::{Runtime, SecondSignal};
 use crate::timing::TimingReport;
 use crate::video::Video;
@@ -74,6 +74,7 @@ struct Under<'a> {
 struct Shown {
     mock: Option<MockDrone>,
     start: Start,
+    flies_a_plan: bool,
     recording: Option<Recording>,
     steps: Vec<Step>,
     truths: Vec<TrueWaypoint>,
@@ -111,7 +112,9 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         let video = listener.is_some().then(|| camera(&runtime, member, mock.as_ref()));
         flying.push(Under { member, flight, mavlink, video });
         let start = member.config.estimator.start.unwrap_or_default();
-        shown.push(Shown { mock, start, recording, steps: Vec::new(), truths: Vec::new() });
+        let (steps, truths) = (Vec::new(), Vec::new());
+        let flies_a_plan = member.plan.is_some();
+        shown.push(Shown { mock, start, flies_a_plan, recording, steps, truths });
     }
     let open = |listener: Listener| {
         let page = page_config(arguments, &fleet, &shown);
@@ -133,22 +136,46 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     {
         watch.warn(&format!("no orders can be read: {error}"));
     }
-    let unshown = pass_on(&flying, |place, message| {
+    let mut ended = Vec::new();
+    pass_on(flying, |place, news| {
         let one = &mut shown[place];
-        one.take_in(message, arguments.json);
-        if let Some(browser) = &browser {
-            browser.show(message);
+        match news {
+            News::Message(message) => {
+                one.take_in(&message, arguments.json);
+                if let Some(browser) = &browser {
+                    browser.show(&message);
+                }
+                watch.show(&message);
+            }
+            News::End(end) => {
+                let end = one.end(*end);
+                if let (Some(browser), Ok(end)) = (&browser, &end) {
+                    browser.end(end.finished.vehicle, &end.json());
+                }
+                if let (true, Ok(end)) = (arguments.json, &end) {
+                    print_object(&end.json());
+                }
+                ended.push((place, end));
+            }
         }
-        watch.show(message);
         if let Some(problem) = one.recording.as_ref().and_then(Recording::problem) {
             watch.warn(&problem.to_string());
         }
     });
     drop(keys);
     watch.end();
+    ended.sort_by_key(|(place, _)| *place);
     let mut statuses = Vec::new();
-    for ((under, shown), unshown) in flying.into_iter().zip(shown).zip(unshown) {
-        statuses.push(finish(under, shown, unshown, browser.as_ref(), arguments)?);
+    for (place, end) in ended {
+        let end = end?;
+        if !arguments.json {
+            terminal::print(format_args!("{}: ", end.finished.vehicle));
+            terminal::print(end.summary(&shown[place].truths));
+            if arguments.timing {
+                terminal::print(TimingReport(&end.finished.ticks));
+            }
+        }
+        statuses.push(end.status);
     }
     let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
     if arguments.json {
@@ -158,6 +185,22 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
 }
 
 impl Under<'_> {
+    /// Passes on its messages until its end; `show` returns whether there was room for one.
+    fn until_its_end(self, show: impl Fn(Message) -> bool) -> Result<Left, FlightError> {
+        let Self { flight, mavlink, .. } = self;
+        let mut unshown = 0;
+        for message in flight.messages() {
+            if let Some(mavlink) = &mavlink {
+                mavlink.show(&message);
+            }
+            unshown += u64::from(!show(message));
+        }
+        let has_quit = flight.controls().has_quit();
+        let mut finished = flight.finish()?;
+        finished.dropped_messages += unshown;
+        Ok(Left { finished, has_quit })
+    }
+
     fn on_page(&self) -> browser::Shown {
         let Member { config, plan, settings, drone, .. } = self.member;
         let planning = Planning { config: config.clone(), surveyed: settings.surveyed_tags() };
@@ -196,7 +239,7 @@ fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConf
 }
 
 /// Each vehicle needs a drone of its own.
-fn own_drones(fleet: &Fleet) -> Result<(), MembersError> {
+pub(super) fn own_drones(fleet: &Fleet) -> Result<(), MembersError> {
     for (number, member) in fleet.members.iter().enumerate() {
         let same = fleet.members.iter().take(number).find(|other| other.drone == member.drone);
         if let Some(other) = same {
@@ -273,35 +316,60 @@ fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
     }
 }
 
-/// Passes on the messages of all flights until their ends, with the place of the vehicle; returns how many of each were not shown
-/// because they came too fast.
-fn pass_on(flying: &[Under<'_>], mut show: impl FnMut(usize, &Message)) -> Vec<u64> {
-    let (sender, messages) = bounded::<(usize, Message)>(UNSHOWN * flying.len());
+/// What comes of a flight.
+#[allow(clippy::large_enum_variant, reason = "the large one is the usual one")]
+enum News {
+    Message(Message),
+    End(Box<Result<Left, FlightError>>),
+}
+
+/// A flight that has ended, and whether an operator wanted that.
+struct Left {
+    finished: FinishedFlight,
+    has_quit: bool,
+}
+
+/// Passes on what comes of all flights until their ends, each with the place of its vehicle.
+///
+/// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flights nevertheless: they are told by
+/// the threads that wait for them.
+fn pass_on(flying: Vec<Under<'_>>, mut show: impl FnMut(usize, News)) {
+    let (sender, news) = bounded::<(usize, News)>(UNSHOWN * flying.len());
     std::thread::scope(|scope| {
-        let tell = |(place, under): (usize, &Under<'_>), sender: crossbeam_channel::Sender<_>| {
-            let mut unshown = 0;
-            for message in under.flight.messages() {
-                if let Some(mavlink) = &under.mavlink {
-                    mavlink.show(&message);
-                }
-                unshown += u64::from(sender.try_send((place, message)).is_err());
-            }
-            unshown
-        };
-        let threads: Vec<_> = flying
-            .iter()
-            .enumerate()
-            .map(|under| {
-                let sender = sender.clone();
-                scope.spawn(move || tell(under, sender))
-            })
-            .collect();
-        drop(sender);
-        for (place, message) in &messages {
-            show(place, &message);
+        for (place, under) in flying.into_iter().enumerate() {
+            let sender = sender.clone();
+            scope.spawn(move || {
+                let end = Box::new(under.until_its_end(|message| {
+                    sender.try_send((place, News::Message(message))).is_ok()
+                }));
+                // It is received until all have sent theirs.
+                _ = sender.send((place, News::End(end)));
+            });
         }
-        threads.into_iter().map(|thread| thread.join().unwrap_or_default()).collect()
-    })
+        drop(sender);
+        for (place, news) in &news {
+            show(place, news);
+        }
+    });
+}
+
+/// A vehicle's flight at its end.
+struct End {
+    finished: FinishedFlight,
+    recorded: Option<Recorded>,
+    flew_a_plan: bool,
+    status: u8,
+}
+
+impl End {
+    fn json(&self) -> Value {
+        json::end(&self.finished, self.recorded.as_ref(), self.status)
+    }
+
+    fn summary<'a>(&'a self, truths: &'a [TrueWaypoint]) -> Summary<'a> {
+        let Self { finished, recorded, flew_a_plan, .. } = self;
+        Summary { finished, truths, recorded: recorded.as_ref(), flew_a_plan: *flew_a_plan }
+    }
 }
 
 impl Shown {
@@ -320,44 +388,15 @@ impl Shown {
             self.truths.push(TrueWaypoint::new(waypoint, &mock.truth(), &self.start));
         }
     }
-}
 
-/// Ends a flight, and tells what became of it; returns its exit status.
-fn finish(
-    under: Under<'_>,
-    shown: Shown,
-    unshown: u64,
-    browser: Option<&Browser>,
-    arguments: &FlyFleet,
-) -> Result<u8, CommandError> {
-    let Under { member, flight, mavlink, video } = under;
-    let has_quit = flight.controls().has_quit();
-    drop((mavlink, video));
-    let mut finished: FinishedFlight = flight.finish()?;
-    finished.dropped_messages += unshown;
-    let flew_a_plan = member.plan.is_some();
-    let status = match finished.outcome.exit_status() {
-        _ if !flew_a_plan && has_quit && finished.is_down => 0,
-        status => status,
-    };
-    let recorded = shown.recording.and_then(Recording::finish);
-    let end = json::end(&finished, recorded.as_ref(), status);
-    if let Some(browser) = browser {
-        browser.end(finished.vehicle, &end);
+    /// Nothing more is recorded.
+    fn end(&mut self, left: Result<Left, FlightError>) -> Result<End, FlightError> {
+        let recorded = self.recording.take().and_then(Recording::finish);
+        let (Left { finished, has_quit }, flew_a_plan) = (left?, self.flies_a_plan);
+        let status = match finished.outcome.exit_status() {
+            _ if !flew_a_plan && has_quit && finished.is_down => 0,
+            status => status,
+        };
+        Ok(End { finished, recorded, flew_a_plan, status })
     }
-    if arguments.json {
-        print_object(&end);
-        return Ok(status);
-    }
-    terminal::print(format_args!("{}: ", finished.vehicle));
-    terminal::print(Summary {
-        finished: &finished,
-        truths: &shown.truths,
-        recorded: recorded.as_ref(),
-        flew_a_plan,
-    });
-    if arguments.timing {
-        terminal::print(TimingReport(&finished.ticks));
-    }
-    Ok(status)
 }

@@ -209,14 +209,16 @@ fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &At
 fn obey(line: &str, limits: &FlightLimits, crew: &Crew) -> Result<(), String> {
     let told = |error: &dyn std::error::Error| format!(":{line}\n{}", terminal::Causes(error));
     let (named, order) = crew.named_first(line);
-    if let Ok(Typed::Order(order)) = typed::parse(order, limits)
-        && named.takes_as_one(&order)
-    {
-        return named.ask(Operator::TERMINAL, &order).map_err(|error| told(&error));
-    }
-    if let Ok(Typed::Quit) = typed::parse(order, limits) {
-        named.quit();
-        return Ok(());
+    match typed::parse(order, limits) {
+        Ok(Typed::Order(order)) if named.takes_as_one(&order) => {
+            return named.ask(Operator::TERMINAL, &order).map_err(|error| told(&error));
+        }
+        Ok(Typed::Quit) => {
+            named.quit();
+            return Ok(());
+        }
+        Err(error @ TypedError::Help(_)) => return Err(error.to_string()),
+        _ => {}
     }
     let controls = named.only().map_err(|error| told(&error))?;
     typed::obey(order, limits, controls, Operator::TERMINAL).map_err(|error| match error {

@@ -59,6 +59,8 @@ enum CommandError {
     Fleet(#[from] FleetError),
     #[error(transparent)]
     Members(#[from] MembersError),
+    #[error("--config, --tags and --tag are for plans: a fleet says them in its file")]
+    OfPlans,
     #[error("{path}")]
     Log { path: String, source: LogError },
     #[error(transparent)]
@@ -96,7 +98,7 @@ impl CommandError {
             | Self::Log { .. }
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
             | Self::Replay(_) => 20,
-            Self::Video(ExportError::Format { .. }) => 2,
+            Self::Video(ExportError::Format { .. }) | Self::OfPlans => 2,
             Self::MavlinkArguments(error) => error.exit_status(),
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_)

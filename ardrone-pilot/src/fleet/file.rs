@@ -15,7 +15,9 @@ use crate::settings::{Fence, SurveyedStart, UltrasoundFrequency};
 pub(super) struct Written {
     #[serde(default)]
     pub(super) fleet: Header,
-    pub(super) fence: Option<Fence>,
+    /// Read again with the settings; here for its errors with their places.
+    #[serde(rename = "fence")]
+    _fence: Option<Fence>,
     #[serde(default)]
     pub(super) vehicle: Vec<Vehicle>,
 }

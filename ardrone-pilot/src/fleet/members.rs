@@ -10,6 +10,7 @@ use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText};
 use kinematics::Pose;
 use mock_drone::WorldConfig;
 use nalgebra::Vector2;
+use toml::{Table, Value};
 
 use super::file::{self, Vehicle, Written};
 use crate::settings::{Settings, SettingsError};
@@ -106,7 +107,10 @@ impl Fleet {
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let config = written.fleet.config.as_ref().map(|config| folder.join(config));
-        let settings = shared_settings(&written, config.as_deref())?;
+        // What it leaves out of the fence is as in the settings.
+        let table: Table = toml::from_str(&text).unwrap_or_default();
+        let fence = table.get("fence").and_then(Value::as_table);
+        let settings = shared_settings(&written, fence, config.as_deref())?;
         let config_of_all = settings.pilot_config(z_origin);
         let findings = findings(&written, &config_of_all, text.trim_end().len());
         let findings = Diagnostics::new([SourceText { name, text }], findings);
@@ -127,12 +131,16 @@ impl Fleet {
 }
 
 /// Those that all have.
-fn shared_settings(written: &Written, config: Option<&Path>) -> Result<Settings, FleetError> {
+fn shared_settings(
+    written: &Written,
+    fence: Option<&Table>,
+    config: Option<&Path>,
+) -> Result<Settings, FleetError> {
     let mut settings = match config {
         Some(path) => Settings::parse(&path.display().to_string(), &read("the settings", path)?)?,
         None => Settings::default(),
     };
-    settings.share(written.fence.clone(), written.fleet.separation_m)?;
+    settings.share(fence, written.fleet.separation_m)?;
     Ok(settings)
 }
 
@@ -191,8 +199,11 @@ fn findings(written: &Written, config: &VehicleConfig, end: usize) -> Vec<Diagno
         if !(1..=250).contains(&systems[number])
             || others().any(|(_, system)| *system == systems[number])
         {
-            let message = format!("{name} has no number of its own: {} is taken", systems[number]);
-            let help = "give each vehicle its own `system`, 1 to 250, or none";
+            let message = format!(
+                "{name} would be the MAVLink system {}, as another one or none",
+                systems[number]
+            );
+            let help = "give each vehicle its own `system`, 1 to 250; without one it has its place in the file";
             findings.push(Diagnostic::error(message, span).help(help));
         }
         findings.extend(start_findings(vehicle, config, others().map(|(other, _)| other)));

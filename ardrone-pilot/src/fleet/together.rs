@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
+use autopilot::plan::Plan;
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{CannotFly, Input, Start, Telemetry, Vehicle};
 use kinematics::Pose;
@@ -56,7 +57,8 @@ pub struct Meeting {
 
 struct Flying {
     number: usize,
-    alone: SimulatedFlight,
+    /// Nothing of one that has no plan: it stands there, and is heard.
+    alone: Option<SimulatedFlight>,
     system: u8,
     driver: Driver<Simulated>,
     start: Start,
@@ -66,19 +68,26 @@ struct Flying {
 }
 
 impl Flying {
-    /// Nothing without a plan.
-    fn begin(number: usize, member: &Member) -> Result<Option<Self>, CannotFly> {
+    fn begin(number: usize, member: &Member) -> Result<Self, CannotFly> {
         let (Member { config, plan, .. }, world) = (member, member.world());
-        let Some(plan) = plan else { return Ok(None) };
-        Ok(Some(Self {
+        let fly = |plan: &Plan| simulation::fly(plan.clone(), config, &world);
+        let vehicle = match plan {
+            Some(plan) => Vehicle::flying(plan.clone(), config)?,
+            None => Vehicle::new(config).map_err(CannotFly::from)?,
+        };
+        Ok(Self {
             number,
-            alone: simulation::fly(plan.clone(), config, &world)?,
+            alone: plan.as_ref().map(fly).transpose()?,
             system: config.system,
-            driver: Driver::new(Vehicle::flying(plan.clone(), config)?, &world),
+            driver: Driver::new(vehicle, &world),
             start: config.estimator.start.unwrap_or_default(),
             outcome: None,
             places_m: Vec::new(),
-        }))
+        })
+    }
+
+    fn goes_on(&self) -> bool {
+        self.alone.is_some() && self.outcome.is_none()
     }
 
     /// What it tells the others in a tick.
@@ -106,19 +115,19 @@ impl Flying {
 /// [`CannotFly`] if a plan or the limits are refused.
 pub fn fly(fleet: &Fleet) -> Result<SimulatedFleet, CannotFly> {
     let members = fleet.members.iter().enumerate();
-    let begun = members.filter_map(|(number, member)| Flying::begin(number, member).transpose());
+    let begun = members.map(|(number, member)| Flying::begin(number, member));
     let flying = fly_together(begun.collect::<Result<_, _>>()?);
     let mut meetings = Vec::new();
     for (number, one) in flying.iter().enumerate() {
         meetings.extend(flying.iter().skip(number + 1).filter_map(|other| meeting([one, other])));
     }
-    Ok(SimulatedFleet { members: flying.into_iter().map(simulated).collect(), meetings })
+    Ok(SimulatedFleet { members: flying.into_iter().filter_map(simulated).collect(), meetings })
 }
 
-/// Flies all in one air until each has ended. Who has no plan stays where it stands, and is not heard.
+/// Flies all in one air until each has ended.
 fn fly_together(mut flying: Vec<Flying>) -> Vec<Flying> {
     let mut now = Duration::ZERO;
-    while now < LONGEST && flying.iter().any(|one| one.outcome.is_none()) {
+    while now < LONGEST && flying.iter().any(Flying::goes_on) {
         drive::share_air(flying.iter_mut().map(|one| &mut one.driver));
         let told: Vec<Neighbour> = flying.iter_mut().filter_map(|one| one.step(now)).collect();
         for one in &mut flying {
@@ -132,18 +141,18 @@ fn fly_together(mut flying: Vec<Flying>) -> Vec<Flying> {
     flying
 }
 
-fn simulated(flying: Flying) -> SimulatedMember {
+fn simulated(flying: Flying) -> Option<SimulatedMember> {
     let Flying { number, alone, outcome, places_m, .. } = flying;
     let track_m: Vec<_> = places_m.into_iter().flatten().collect();
     let duration = TRACK * u32::try_from(track_m.len()).unwrap_or(u32::MAX);
-    SimulatedMember { number, alone, outcome, duration, track_m }
+    Some(SimulatedMember { number, alone: alone?, outcome, duration, track_m })
 }
 
 /// `None` of two that would never be in the air at the same time.
 fn meeting(flying: [&Flying; 2]) -> Option<Meeting> {
     let place_m = |(_, pose): &(Duration, Pose)| Vector2::new(pose.x_m, pose.y_m);
-    let [a, b] = flying.map(|one| one.alone.track.iter());
-    let apart = a.zip(b).map(|(a, b)| ((place_m(a) - place_m(b)).norm(), a.0));
+    let [a, b] = flying.map(|one| Some(one.alone.as_ref()?.track.iter()));
+    let apart = a?.zip(b?).map(|(a, b)| ((place_m(a) - place_m(b)).norm(), a.0));
     let (alone_m, at) = apart.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let [a, b] = flying.map(|one| one.places_m.iter());
     let both = a.zip(b).filter_map(|(a, b)| Some(((*a)? - (*b)?).norm()));

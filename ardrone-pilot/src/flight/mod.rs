@@ -42,6 +42,7 @@ use crate::runtime::Runtime;
 use crate::timing::{TickHealth, TickSummary};
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
+use autopilot::separation::Presence;
 use autopilot::vehicle::{
     CannotFly, FlightReport, Input, Operator, OperatorOrder, Output, Telemetry, Transmit, Vehicle,
     VehicleConfig, VehicleName,
@@ -389,9 +390,11 @@ impl TickLoop {
             }
             Err(_) => false,
         };
-        if down {
+        let told = self.driver.vehicle.as_neighbour(self.driver.now());
+        if down || told.is_some_and(|told| told.presence == Presence::Stands) {
             self.driver.surroundings.park();
-        } else {
+        }
+        if !down {
             self.part();
         }
         end.map(|outcome| self.finished(outcome, down, realtime))

@@ -61,6 +61,19 @@ impl Fence {
         ],
     );
 
+    /// This one with other values.
+    pub(super) fn with(&self, changes: &toml::Table) -> Result<Self, toml::de::Error> {
+        let serialized = toml::Table::try_from(self);
+        let mut table = serialized.map_err(serde::de::Error::custom)?;
+        // Of a circle and a polygon one stands in place of the other.
+        if changes.contains_key("radius_m") || changes.contains_key("polygon_m") {
+            table.remove("radius_m");
+            table.remove("polygon_m");
+        }
+        table.extend(changes.clone());
+        table.try_into()
+    }
+
     /// Of a circle.
     fn radius_m(&self) -> Option<f64> {
         match self.border.shape() {

@@ -162,10 +162,15 @@ impl Settings {
     /// [`SettingsError::Values`] if they are out of range.
     pub(crate) fn share(
         &mut self,
-        fence: Option<Fence>,
+        fence: Option<&toml::Table>,
         separation_m: Option<f64>,
     ) -> Result<(), SettingsError> {
-        self.fence = fence.unwrap_or_else(|| self.fence.clone());
+        if let Some(fence) = fence {
+            self.fence = self.fence.with(fence).map_err(|error| SettingsError::Syntax {
+                path: "the fleet's [fence]".to_owned(),
+                message: error.to_string().trim_end().to_owned(),
+            })?;
+        }
         self.room.separation_m = separation_m.unwrap_or(self.room.separation_m);
         let reasons = self.reasons_against();
         if reasons.is_empty() {

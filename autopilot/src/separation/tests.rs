@@ -206,7 +206,7 @@ fn who_is_silent_or_flies_near_is_known_before_a_take_off() {
     assert_eq!(near(neighbour(1.4, 0.0)), [(2, 1.4)]);
     assert_eq!(near(neighbour(1.6, 0.0)), []);
     let near_if = |presence, deviation_m, system, x_m| {
-        near(Neighbour { presence, deviation_m, system, ..neighbour(x_m, 0.0) }).len() == 1
+        near(Neighbour { system, deviation_m, presence, ..neighbour(x_m, 0.0) }).len() == 1
     };
     let (stands, starts) = (Presence::Stands, Presence::Starts);
     assert!(

@@ -184,6 +184,8 @@ const IDENTITY: Identity =
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 /// Longest wait for the drone to acknowledge its configuration.
 const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
+/// Longest wait for other vehicles to be heard, and to leave the place, before a flight that was ordered is refused.
+const ROOM_TIMEOUT: Duration = Duration::from_secs(30);
 /// Wait after flat trim, for the drone to apply it; navdata are monitored meanwhile.
 const SETTLE_TIME: Duration = Duration::from_millis(500);
 /// After this time a landing is no longer awaited, and the flight ends without one.

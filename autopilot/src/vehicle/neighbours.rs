@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use estimator::{Prediction, Start};
 
-use super::{Phase, Refused, SETTLE_TIME, Vehicle};
+use super::{FAULT_TIME, Phase, Refused, SETTLE_TIME, Vehicle};
 use crate::agent::AgentCommand;
 use crate::safety::{Situation, Veto};
 use crate::separation::{Neighbour, NotHeard, Oneself, Presence};
@@ -33,16 +33,18 @@ impl Vehicle {
             velocity_m_s: estimate.velocity_m_s.xy(),
             deviation_m: self.flight.estimator.horizontal_deviation_m(estimate.at),
             separation_m: self.config.separation_m,
-            presence: self.presence(),
+            presence: self.presence(now),
             claim: self.flight.safety.claim(),
         })
     }
 
-    /// Whether it is in the air. While it is prepared for a flight it is about to be, so that the others have heard it when it
+    /// Whether it is in the air; with its motors cut it falls, and lies there. While it is prepared for a flight it is about to be, so that the others have heard it when it
     /// lifts.
-    fn presence(&self) -> Presence {
+    fn presence(&self, now: Duration) -> Presence {
         let is_prepared = self.life.phase() == Phase::Trimming && self.life.departure().is_some();
-        if !self.on_ground() {
+        if self.flight.emergency.has_lasted(now, FAULT_TIME) {
+            Presence::Stands
+        } else if !self.on_ground() {
             Presence::Flies
         } else if is_prepared || self.life.phase() == Phase::Flying {
             Presence::Starts

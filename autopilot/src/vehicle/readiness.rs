@@ -151,7 +151,7 @@ impl fmt::Display for NotReady {
             Self::PeerSilent { system } => {
                 write!(
                     f,
-                    "vehicle {system} in the same room is not heard: start its pilot, or leave it out"
+                    "vehicle {system} in the same room is not heard: switch its drone on and start its pilot, or leave it out"
                 )
             }
             Self::PeerNear { system, away_m } => {
@@ -202,6 +202,14 @@ impl Vehicle {
                 reasons
             }
         }
+    }
+
+    /// Whether [`Self::problems_of_the_room`] has none, without asking for memory.
+    pub(super) fn room_is_clear(&self, now: Duration) -> bool {
+        let oneself = self.oneself(now, &self.state(now));
+        let mut near = self.neighbours.too_near(now, &oneself);
+        self.config.peers.iter().all(|peer| self.neighbours.is_heard(*peer, now))
+            && near.next().is_none()
     }
 
     fn problems_of_the_room(&self, now: Duration) -> Vec<NotReady> {

@@ -8,8 +8,8 @@ use super::life::{Departure, Life, Preparation, Watched, Why};
 use super::readiness::NotReady;
 use super::{
     AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured, Danger,
-    FAULT_TIME, FlightEvent, LANDING_TIMEOUT, LandingReason, SETTLE_TIME, TAG_LANDING_TIMEOUT,
-    Trust, Vehicle, Veto, session,
+    FAULT_TIME, FlightEvent, LANDING_TIMEOUT, LandingReason, ROOM_TIMEOUT, SETTLE_TIME,
+    TAG_LANDING_TIMEOUT, Trust, Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -91,7 +91,10 @@ impl Vehicle {
             Preparation::Trimming(watched) if lasts(watched.since, SETTLE_TIME) => {
                 match departure {
                     Some(Departure { ordered, .. }) => {
-                        if lasts(watched.since.max(ordered), self.settle_time()) {
+                        let is_seen = lasts(watched.since.max(ordered), self.settle_time());
+                        // Drones do not answer at the same moment, and others fly away.
+                        let waits = !self.room_is_clear(now) && !lasts(ordered, ROOM_TIMEOUT);
+                        if is_seen && !waits {
                             self.take_off_or_refuse(now, self.packets_hz(now, watched));
                         }
                     }

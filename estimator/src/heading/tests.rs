@@ -115,10 +115,13 @@ fn the_turn_follows_the_stick_with_the_airframes_gain_and_lag() {
     // The next heading takes the rate over.
     assert!(!heading.update(lag_s, 10.0 + deg, &orders, &airframe, &LIMITS));
     assert!((heading.newest_turn_deg_s() - 40.0 * followed).abs() < 1e-6);
+    let before_deg = heading.newest_deg();
+    assert!(before_deg > 1.0);
     heading.handle_restart();
-    assert!(heading.newest_turn_deg_s().abs() < 1e-9 && heading.newest_deg().abs() < 1e-9);
+    let is_as_before = |heading: &Heading| (heading.newest_deg() - before_deg).abs() < 1e-9;
+    assert!(heading.newest_turn_deg_s().abs() < 1e-9 && is_as_before(&heading));
     assert!(!heading.update(0.0, -100.0, &orders, &airframe, &LIMITS), "a new baseline");
-    assert!(heading.newest_deg().abs() < 1e-9);
+    assert!(is_as_before(&heading), "and the same heading");
 }
 
 /// Yaw sticks, each from a time in milliseconds on.

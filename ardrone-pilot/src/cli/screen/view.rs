@@ -208,10 +208,10 @@ impl Views {
         others.filter_map(|(place, (_, view))| Some(((place + 1).to_string(), view.status?.pose?)))
     }
 
-    /// All vehicles of several, with the keys that choose them.
-    fn list(&self) -> Option<Line<'_>> {
+    /// All vehicles of several, with the keys that choose them, on as many lines as they need.
+    fn list(&self, columns: usize) -> Vec<Line<'_>> {
         if self.all.len() == 1 {
-            return None;
+            return Vec::new();
         }
         let items = self.all.iter().enumerate().map(|(place, (name, view))| {
             let (text, ill) = view.summary();
@@ -221,16 +221,23 @@ impl Views {
             }
             Span::styled(format!(" {} {name} {text} ", place + 1), style)
         });
-        Some(Line::from(items.collect::<Vec<_>>()))
+        let mut lines: Vec<Line<'_>> = Vec::new();
+        for item in items {
+            match lines.last_mut().filter(|line| line.width() + item.width() <= columns) {
+                Some(line) => line.push_span(item),
+                None => lines.push(Line::from(item)),
+            }
+        }
+        lines
     }
 }
 
 /// Draws the whole screen.
 pub(super) fn draw(frame: &mut Frame<'_>, views: &Views) {
     let view = views.shown();
-    let list = views.list();
+    let list = views.list(frame.area().width.into());
     let [fleet, head, body, foot, keys] = Layout::vertical([
-        Constraint::Length(u16::from(list.is_some())),
+        Constraint::Length(u16::try_from(list.len()).unwrap_or_default()),
         Constraint::Length(1),
         Constraint::Min(10),
         Constraint::Length(7),
@@ -250,7 +257,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, views: &Views) {
         Layout::vertical([length(gauges), length(table), Constraint::Min(LEAST_STEPS)]).areas(side);
     let [decisions, events] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
-    frame.render_widget(list.unwrap_or_default(), fleet);
+    frame.render_widget(Paragraph::new(list), fleet);
     frame.render_widget(headline(view), head);
     draw_map(frame, map, view, &views.others().collect::<Vec<_>>());
     draw_gauges(frame, gauges, view, &about);

@@ -37,8 +37,8 @@ fn nobody_takes_off_beside_another_one() {
         let mut bench = Bench::standing_by(STAY);
         hears(&mut bench, 1.2, presence, SECOND);
         let near = NotReady::PeerNear { system: 2, away_m: 1.2 };
-        assert_eq!(bench.vehicle.readiness(), [near.clone()], "it is told before");
         let refused = Refused::NotReady(vec![near.to_string()]);
+        assert_eq!(bench.vehicle.readiness(), [near], "it is told before");
         assert_eq!(bench.order(START), Err(refused));
     }
 }
@@ -61,7 +61,7 @@ fn who_takes_off_tells_so_for_a_second_before_and_is_not_delayed_alone() {
         bench.rises();
         bench.run(SECOND / 2);
         assert_eq!(presence(&bench), Some(Presence::Flies));
-        bench.now - ordered
+        bench.now.saturating_sub(ordered)
     };
     assert!(lifts_after(true) >= SECOND + SECOND / 2 && lifts_after(false) < SECOND + SECOND / 5);
 }
