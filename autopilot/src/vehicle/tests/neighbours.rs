@@ -65,3 +65,35 @@ fn who_takes_off_tells_so_for_a_second_before_and_is_not_delayed_alone() {
     };
     assert!(lifts_after(true) >= SECOND + SECOND / 2 && lifts_after(false) < SECOND + SECOND / 5);
 }
+
+/// Drones do not answer at the same moment.
+#[test]
+fn a_flight_that_was_ordered_waits_for_those_that_are_not_heard_yet() {
+    let flies_after = |heard: bool| {
+        let config = VehicleConfig { peers: vec![2], read_back: false, ..VehicleConfig::default() };
+        let mut bench = Bench::with(&config);
+        bench.accepted(OperatorOrder::Load(Plan::parse("plan", STAY).unwrap()));
+        bench.accepted(OperatorOrder::Start { when_ready: true });
+        bench.run(10 * SECOND);
+        assert_eq!((bench.phase(), bench.vehicle.outcome()), (Phase::Trimming, None));
+        if heard {
+            hears(&mut bench, 4.0, Presence::Stands, 2 * SECOND);
+        } else {
+            bench.run(25 * SECOND);
+        }
+        (bench.phase(), bench.vehicle.outcome().cloned())
+    };
+    assert_eq!(flies_after(true), (Phase::Flying, None));
+    let refused =
+        Outcome::PreflightRefused { reasons: vec![NotReady::PeerSilent { system: 2 }.to_string()] };
+    assert_eq!(flies_after(false), (Phase::Standby, Some(refused)), "not for ever");
+}
+
+#[test]
+fn who_has_cut_its_motors_flies_no_more() {
+    let mut bench = Bench::in_the_air(STAY);
+    assert_eq!(presence(&bench), Some(Presence::Flies));
+    bench.state |= DroneState::EMERGENCY;
+    bench.run(SECOND);
+    assert_eq!(presence(&bench), Some(Presence::Stands));
+}
