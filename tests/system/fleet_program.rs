@@ -276,7 +276,6 @@ fn the_page_shows_each_vehicle_with_the_others_and_lands_all() {
             break;
         }
     }
-    // The plan of a vehicle is checked from where it stands.
     right.order(&json!({ "order": "land_all", "vehicle": "right" }));
     assert_eq!(right.next("accepted")["order"], "land");
     for live in [&mut left, &mut right] {

@@ -2,7 +2,7 @@
 //!
 //! Ticks never wait for each other: a place that another one is just writing or reading is passed over until the next tick.
 
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use autopilot::separation::{Neighbour, Presence};
@@ -36,22 +36,18 @@ impl Seat {
     /// Tells the others; times count from `start`.
     pub(super) fn tell(&self, start: Instant, neighbour: Neighbour) {
         let told = Told { at: start + neighbour.at, neighbour, is_parked: false };
-        self.write(|own| *own = Some(told));
-    }
-
-    /// The vehicle leaves the room with its drone on the ground.
-    pub(super) fn park(&self) {
-        self.write(|own| {
-            if let Some(told) = own {
-                (told.is_parked, told.neighbour.presence) = (true, Presence::Stands);
-                told.neighbour.claim = None;
-            }
-        });
-    }
-
-    fn write(&self, change: impl FnOnce(&mut Option<Told>)) {
         if let Some(mut own) = self.room.get(self.own).and_then(unlocked) {
-            change(&mut own);
+            *own = Some(told);
+        }
+    }
+
+    /// The vehicle leaves the room with its drone on the ground. It waits for its place: there is no tick any more that would
+    /// be late, and none that would say it again.
+    pub(super) fn park(&self) {
+        let Some(own) = self.room.get(self.own) else { return };
+        if let Some(told) = own.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            (told.is_parked, told.neighbour.presence) = (true, Presence::Stands);
+            told.neighbour.claim = None;
         }
     }
 
@@ -123,6 +119,24 @@ mod tests {
         );
         seats[0].tell(first, at(1, 730, Presence::Flies));
         assert_eq!(seats[2].hear(first, 900 * MS).count(), 1);
+    }
+
+    #[test]
+    fn a_place_that_is_in_use_is_waited_for_by_who_leaves_it_and_passed_over_by_ticks() {
+        let mut seats: Vec<Seat> = Seat::in_one_room(2).collect();
+        let start = Instant::now();
+        seats[0].tell(start, at(1, 10, Presence::Flies));
+        let room = Arc::clone(&seats[0].room);
+        let in_use = room[0].lock().unwrap();
+        seats[0].tell(start, at(1, 20, Presence::Flies));
+        assert_eq!(seats[1].hear(start, MS).count(), 0);
+        std::thread::scope(|scope| {
+            let leaves = scope.spawn(|| seats[0].park());
+            std::thread::sleep(20 * MS);
+            assert!(!leaves.is_finished());
+            drop(in_use);
+        });
+        assert_eq!(seats[1].hear(start, 50 * MS).next(), Some(at(1, 50, Presence::Stands)));
     }
 
     #[test]
