@@ -216,11 +216,11 @@ impl Neighbours {
     pub(crate) fn too_near(
         &self,
         now: Duration,
-        oneself: &Oneself,
+        oneself: Oneself,
     ) -> impl Iterator<Item = (u8, f64)> {
         self.0.iter().filter_map(move |known| {
             let Neighbour { system, presence, .. } = known.told;
-            let other = other(now, oneself, known);
+            let other = other(now, &oneself, known);
             let away_m = (other.place_m - oneself.place_m).norm();
             let is_beyond = other.wall(oneself.place_m).distance_m < 0.0;
             let is_near = match presence {

@@ -201,7 +201,7 @@ fn who_is_silent_or_flies_near_is_known_before_a_take_off() {
     assert!(!known.is_heard(3, AT), "never heard");
     assert!(!heard(&[neighbour(2.0, 0.0), jumped]).0.is_heard(2, after(100)), "not believed");
     let near = |neighbour: Neighbour| -> Vec<(u8, f64)> {
-        heard(&[neighbour]).0.too_near(AT, &ONESELF).collect()
+        heard(&[neighbour]).0.too_near(AT, ONESELF).collect()
     };
     assert_eq!(near(neighbour(1.4, 0.0)), [(2, 1.4)]);
     assert_eq!(near(neighbour(1.6, 0.0)), []);

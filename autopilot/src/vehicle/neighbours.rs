@@ -38,8 +38,8 @@ impl Vehicle {
         })
     }
 
-    /// Whether it is in the air; with its motors cut it falls, and lies there. While it is prepared for a flight it is about to be, so that the others have heard it when it
-    /// lifts.
+    /// Whether it is in the air: not with its motors cut, as it falls then and lies there. While it is prepared for a flight it is
+    /// about to be, so that the others have heard it when it lifts.
     fn presence(&self, now: Duration) -> Presence {
         let is_prepared = self.life.phase() == Phase::Trimming && self.life.departure().is_some();
         if self.flight.emergency.has_lasted(now, FAULT_TIME) {

@@ -204,20 +204,14 @@ impl Vehicle {
         }
     }
 
-    /// Whether [`Self::problems_of_the_room`] has none, without asking for memory.
-    pub(super) fn room_is_clear(&self, now: Duration) -> bool {
-        let oneself = self.oneself(now, &self.state(now));
-        let mut near = self.neighbours.too_near(now, &oneself);
-        self.config.peers.iter().all(|peer| self.neighbours.is_heard(*peer, now))
-            && near.next().is_none()
-    }
-
-    fn problems_of_the_room(&self, now: Duration) -> Vec<NotReady> {
-        let silent = self.config.peers.iter().filter(|peer| !self.neighbours.is_heard(**peer, now));
+    /// Other vehicles that are not heard, or too near. Asking for the first of them allocates nothing.
+    pub(super) fn problems_of_the_room(&self, now: Duration) -> impl Iterator<Item = NotReady> {
+        let peers = self.config.peers.iter();
+        let silent = peers.filter(move |peer| !self.neighbours.is_heard(**peer, now));
         let silent = silent.map(|peer| NotReady::PeerSilent { system: *peer });
         let oneself = self.oneself(now, &self.state(now));
-        let near = self.neighbours.too_near(now, &oneself);
-        silent.chain(near.map(|(system, away_m)| NotReady::PeerNear { system, away_m })).collect()
+        let near = self.neighbours.too_near(now, oneself);
+        silent.chain(near.map(|(system, away_m)| NotReady::PeerNear { system, away_m }))
     }
 
     fn problems_of_the_settings(&self) -> Vec<NotReady> {

@@ -93,8 +93,11 @@ impl Vehicle {
                     Some(Departure { ordered, .. }) => {
                         let is_seen = lasts(watched.since.max(ordered), self.settle_time());
                         // Drones do not answer at the same moment, and others fly away.
-                        let waits = !self.room_is_clear(now) && !lasts(ordered, ROOM_TIMEOUT);
-                        if is_seen && !waits {
+                        let waits = || {
+                            let mut problems = self.problems_of_the_room(now);
+                            problems.next().is_some() && !lasts(ordered, ROOM_TIMEOUT)
+                        };
+                        if is_seen && !waits() {
                             self.take_off_or_refuse(now, self.packets_hz(now, watched));
                         }
                     }
