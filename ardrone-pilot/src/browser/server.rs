@@ -37,7 +37,7 @@ use super::pictures;
 use super::planning::Planning;
 use super::requests::{Requested, Requests};
 use super::snapshot::Snapshot;
-use crate::flight::Controls;
+use crate::flight::{Controls, answer_of_all};
 use crate::runtime::{Runtime, Task};
 use crate::video::VideoFeed;
 
@@ -220,9 +220,7 @@ impl Shared {
     /// Lands all; returns the vehicle's answer if none hears it.
     fn land_all(&self, by: Operator) -> Result<(), Refused> {
         let land = |vehicle: &Vehicle| vehicle.controls.order(by, OperatorOrder::Land);
-        let answers: Vec<_> = self.vehicles.iter().map(land).collect();
-        let is_heard = answers.iter().any(Result::is_ok);
-        answers.into_iter().find(|answer| answer.is_ok() == is_heard).unwrap_or(Ok(()))
+        answer_of_all(self.vehicles.iter().map(land))
     }
 }
 

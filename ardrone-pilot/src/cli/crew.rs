@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, VehicleName};
 
-use crate::flight::Controls;
+use crate::flight::{Controls, answer_of_all};
 
 /// The vehicles, and which of them gets the orders; without a choice all do.
 #[derive(Debug, Clone)]
@@ -122,9 +122,7 @@ impl Crew {
     }
 
     fn each(&self, order: impl Fn(&Controls) -> Result<(), Refused>) -> Result<(), Refused> {
-        let answers: Vec<_> = self.addressed().iter().map(order).collect();
-        let is_taken = answers.iter().any(Result::is_ok);
-        answers.into_iter().find(|answer| answer.is_ok() == is_taken).unwrap_or(Ok(()))
+        answer_of_all(self.addressed().iter().map(order))
     }
 }
 

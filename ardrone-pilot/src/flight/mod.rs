@@ -33,6 +33,7 @@ use self::link::{Link, sleep};
 pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
 use self::orders::Orders;
+pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
 pub use self::room::Seat;
 use crate::drive::{Driver, Passed};

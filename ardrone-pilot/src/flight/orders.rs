@@ -150,6 +150,19 @@ impl Controls {
     }
 }
 
+/// The answer to an order that several vehicles got: a refusal only if all refuse, and then the first one's.
+///
+/// # Errors
+/// That refusal.
+pub(crate) fn answer_of_all(
+    answers: impl IntoIterator<Item = Result<(), Refused>>,
+) -> Result<(), Refused> {
+    // Each must be asked, also behind one that has accepted.
+    let answers: Vec<_> = answers.into_iter().collect();
+    let is_taken = answers.iter().any(Result::is_ok);
+    answers.into_iter().find(|answer| answer.is_ok() == is_taken).unwrap_or(Ok(()))
+}
+
 /// Orders that must be delivered whatever else is queued. They need no queue, which could be full: only the
 /// last operator who ordered them matters, a local one before a remote one.
 #[derive(Debug, Default)]
