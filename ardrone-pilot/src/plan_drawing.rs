@@ -2,17 +2,13 @@
 
 use autopilot::plan::{FlightLimits, Plan};
 use autopilot::vehicle::SurveyedTag;
-use diagnostic::printable;
 use kinematics::Pose;
 use plotters::prelude::*;
 
-use crate::drawing::{self, Drawing, Drawn, FONT};
+use crate::drawing::{self, Drawing, Drawn, FENCE, FONT, Map};
 
 const SIZE: (u32, u32) = (960, 500);
-/// Pieces of the fence are no longer, in metres.
-const PIECE_M: f64 = 0.2;
 const WAY: RGBColor = RGBColor(25, 95, 170);
-pub(crate) const FENCE: RGBColor = RGBColor(190, 60, 40);
 const TAG: RGBColor = RGBColor(20, 20, 20);
 const GROUND: RGBColor = RGBColor(110, 110, 110);
 
@@ -78,38 +74,19 @@ fn from_above(
     tags: &[SurveyedTag],
     limits: &FlightLimits,
 ) -> Drawn {
-    let extent = |value: fn(&Pose) -> f64| {
-        let values = places.iter().map(|place| value(&place.pose));
-        values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
-    };
-    let (x, y) = (extent(|pose| pose.x_m), extent(|pose| pose.y_m));
-    let half_m = ((x.1 - x.0).max(y.1 - y.0) * 0.55 + 0.5).max(1.0);
-    let (x, y) = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
-    let mut chart = ChartBuilder::on(area)
-        .caption(printable(name), (FONT, 18))
-        .margin(12)
-        .x_label_area_size(36)
-        .y_label_area_size(44)
-        .build_cartesian_2d(x - half_m..x + half_m, y - half_m..y + half_m)?;
-    chart
-        .configure_mesh()
-        .x_desc("right (m)")
-        .y_desc("forward (m)")
-        .label_style((FONT, 13))
-        .light_line_style(WHITE)
-        .bold_line_style(BLACK.mix(0.1))
-        .draw()?;
-    // The library would draw points outside along the edge.
-    let inside = |(at_x, at_y): (f64, f64)| (at_x - x).abs() < half_m && (at_y - y).abs() < half_m;
-    let sides = limits.border.sides_m().flat_map(pieces);
-    let fence = sides.filter(|[from, to]| inside(*from) && inside(*to));
-    chart.draw_series(fence.map(|part| PathElement::new(part, FENCE.stroke_width(2))))?;
+    let ways = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
+    let map = Map::new(area, name, ways.chain([(0.0, 0.0)]), &limits.border)?;
+    let tags: Vec<_> = tags
+        .iter()
+        .map(|tag| (tag.place_m.x, tag.place_m.y))
+        .filter(|tag| map.shows(*tag))
+        .collect();
+    let Map { mut chart, half_m, .. } = map;
     let way = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
     chart.draw_series(LineSeries::new(way, WAY.stroke_width(2)))?;
     let start = limits.start.unwrap_or_default();
     chart.draw_series([TriangleMarker::new((start.x_m, start.y_m), 9, GROUND.filled())])?;
-    let tags = tags.iter().map(|tag| (tag.place_m.x, tag.place_m.y)).filter(|tag| inside(*tag));
-    chart.draw_series(tags.flat_map(|tag| {
+    chart.draw_series(tags.into_iter().flat_map(|tag| {
         [Circle::new(tag, 8, TAG.stroke_width(2)), Circle::new(tag, 3, TAG.filled())]
     }))?;
     let targets = places.iter().filter_map(|place| Some((place.target?, place.pose)));
@@ -133,22 +110,6 @@ fn from_above(
         EmptyElement::at((pose.x_m, pose.y_m)) + Text::new(numbers.join(", "), (7, 6), (FONT, 14))
     }))?;
     Ok(())
-}
-
-/// A side of the fence in short pieces, of which those in view are drawn.
-pub(crate) fn pieces([from, to]: [[f64; 2]; 2]) -> impl Iterator<Item = [(f64, f64); 2]> {
-    let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
-    let count = (length_m / PIECE_M).ceil().clamp(1.0, 10_000.0);
-    let at = move |share: f64| {
-        let between = |axis: usize| from[axis] + share * (to[axis] - from[axis]);
-        (between(0), between(1))
-    };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 10 000")]
-    let parts = 0..count as u32;
-    parts.map(move |part| {
-        let [begins, ends] = [f64::from(part), f64::from(part + 1)].map(|part| at(part / count));
-        [begins, ends]
-    })
 }
 
 /// Height over time, between floor and ceiling.

@@ -135,26 +135,11 @@ pub(super) struct CheckPlan {
     pub(super) json: bool,
 }
 
-/// Arguments of the flight of a fleet.
+/// How a flight is shown, and from where it takes orders.
 #[derive(Debug, Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
-pub(super) struct FlyFleet {
-    /// The vehicles: name, start and plan of each
-    #[arg(value_name = "FLEET.toml")]
-    pub(super) fleet: PathBuf,
-    /// Fly simulated drones, started on free loopback ports
-    #[arg(long)]
-    pub(super) mock: bool,
-    /// Where z = 0 of the plans is
-    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
-    z_origin: ZOrigin,
-    /// Record the flights to this folder, each to a file DATE-FLEET-VEHICLE.mcap
-    #[arg(long, value_name = "FOLDER", default_value = "flights")]
-    pub(super) log: PathBuf,
-    /// Do not record the flights
-    #[arg(long, conflicts_with = "log")]
-    pub(super) no_log: bool,
-    /// Show all flights in a browser, and take orders from it; at an address that others can reach, with
+pub(super) struct Interfaces {
+    /// Show the flight in a browser, and take orders from it; at an address that others can reach, with
     /// a token
     #[arg(
         long,
@@ -175,9 +160,32 @@ pub(super) struct FlyFleet {
     /// Plain lines, without terminal control sequences
     #[arg(long)]
     pub(super) plain: bool,
-    /// Print one JSON object per line: status, events, targets reached, and the end, each with its vehicle
+    /// Print one JSON object per line: status, events, targets reached, and the end
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// Arguments of the flight of a fleet.
+#[derive(Debug, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
+pub(super) struct FlyFleet {
+    /// The vehicles: name, start and plan of each
+    #[arg(value_name = "FLEET.toml")]
+    pub(super) fleet: PathBuf,
+    /// Fly simulated drones, started on free loopback ports
+    #[arg(long)]
+    pub(super) mock: bool,
+    /// Where z = 0 of the plans is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    z_origin: ZOrigin,
+    /// Record the flights to this folder, each to a file DATE-FLEET-VEHICLE.mcap
+    #[arg(long, value_name = "FOLDER", default_value = "flights")]
+    pub(super) log: PathBuf,
+    /// Do not record the flights
+    #[arg(long, conflicts_with = "log")]
+    pub(super) no_log: bool,
+    #[command(flatten)]
+    pub(super) interfaces: Interfaces,
 }
 
 /// Arguments of a flight.
@@ -227,30 +235,8 @@ pub(super) struct Fly {
     /// Record what the camera sees, too: 8 MB a minute
     #[arg(long, conflicts_with = "no_log")]
     pub(super) record_video: bool,
-    /// Show the flight in a browser, and take orders from it; at an address that others can reach, with
-    /// a token
-    #[arg(
-        long,
-        value_name = "ADDRESS",
-        num_args = 0..=1,
-        default_missing_value = "127.0.0.1:8080",
-        value_parser = page_address
-    )]
-    pub(super) ui: Option<SocketAddr>,
-    /// Folder of the plans that the page opens and saves
-    #[arg(long, value_name = "FOLDER", default_value = "plans", requires = "ui")]
-    pub(super) plans: PathBuf,
     #[command(flatten)]
-    pub(super) mavlink: MavlinkArguments,
-    /// Print how regular the ticks were and what they cost
-    #[arg(long)]
-    pub(super) timing: bool,
-    /// Plain lines, without terminal control sequences
-    #[arg(long)]
-    pub(super) plain: bool,
-    /// Print one JSON object per line: status, events, targets reached, and the end
-    #[arg(long)]
-    pub(super) json: bool,
+    pub(super) interfaces: Interfaces,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -346,7 +332,7 @@ mod tests {
     fn a_page_has_an_address() {
         let ui = |words: &[&str]| {
             let words = ["ardrone-pilot", "--plan", "p", "--ui"].iter().chain(words);
-            Arguments::try_parse_from(words).map(|arguments| arguments.fly.ui.unwrap())
+            Arguments::try_parse_from(words).map(|arguments| arguments.fly.interfaces.ui.unwrap())
         };
         assert_eq!(ui(&[]).unwrap(), "127.0.0.1:8080".parse().unwrap());
         assert_eq!(ui(&["9000"]).unwrap(), "127.0.0.1:9000".parse().unwrap());

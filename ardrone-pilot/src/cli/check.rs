@@ -1,6 +1,7 @@
 //! `ardrone-pilot check`: expected course of a plan, its errors and warnings.
 
 use std::fmt;
+use std::path::Path;
 use std::time::Duration;
 
 use autopilot::plan::{Expectation, Plan, battery_percent};
@@ -55,14 +56,18 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     terminal::print(printed);
     let Some(plan) = checked.plan else { return Ok(20) };
     if let Some(path) = &arguments.svg {
-        let drawing = plan_drawing::svg(&name, &plan, &limits)?;
-        std::fs::write(path, drawing).map_err(|source| CommandError::Write {
-            what: "the drawing",
-            path: path.display().to_string(),
-            source,
-        })?;
+        write_drawing(path, &plan_drawing::svg(&name, &plan, &limits)?)?;
     }
     Ok(0)
+}
+
+/// Writes what was drawn.
+pub(super) fn write_drawing(path: &Path, drawing: &str) -> Result<(), CommandError> {
+    std::fs::write(path, drawing).map_err(|source| CommandError::Write {
+        what: "the drawing",
+        path: path.display().to_string(),
+        source,
+    })
 }
 
 /// A plan with its expected course.

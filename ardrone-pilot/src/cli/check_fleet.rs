@@ -10,6 +10,7 @@ use autopilot::vehicle::Start;
 use serde_json::{Value, json};
 
 use super::arguments::CheckPlan;
+use super::check::write_drawing;
 use super::fleet::own_drones;
 use super::{CommandError, terminal};
 use crate::fleet::{self, Fleet, FleetError, Meeting, Member, SimulatedFleet, SimulatedMember};
@@ -35,12 +36,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         terminal::print(&report);
     }
     if let Some(path) = &arguments.svg {
-        let drawing = fleet_drawing::svg(&name, &fleet, &simulated)?;
-        std::fs::write(path, drawing).map_err(|source| CommandError::Write {
-            what: "the drawing",
-            path: path.display().to_string(),
-            source,
-        })?;
+        write_drawing(path, &fleet_drawing::svg(&name, &fleet, &simulated)?)?;
     }
     Ok(0)
 }

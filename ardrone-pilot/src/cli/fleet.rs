@@ -83,7 +83,7 @@ struct Shown {
 /// Flies a fleet; returns the worst exit status.
 pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, CommandError> {
     let fleet = Fleet::read(&arguments.fleet, arguments.z_origin())?;
-    let plain = arguments.plain || !std::io::stderr().is_terminal();
+    let plain = arguments.interfaces.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
     let names = fleet.members.iter().map(|member| member.config.name);
     let mut progress = Progress::new(prompt.clone(), plain, names);
@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         own_drones(&fleet)?;
     }
     let prepared = prepare(&fleet, arguments, &mut progress)?;
-    let listener = arguments.ui.map(Listener::bind).transpose()?;
+    let listener = arguments.interfaces.ui.map(Listener::bind).transpose()?;
     let stations: Vec<String> =
         listener.iter().map(|listener| format!("watch it at {}", listener.url())).collect();
     for line in &stations {
@@ -123,7 +123,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     let browser = listener.map(open);
     let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
     let limits = fleet.members[0].config.limits;
-    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let wanted = !plain && !arguments.interfaces.json && std::io::stdin().is_terminal();
     let all_limits = fleet.members.iter().map(|member| member.config.limits);
     let screen = || Screen::start(all_limits, crew.clone(), warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
@@ -141,7 +141,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         let one = &mut shown[place];
         match news {
             News::Message(message) => {
-                one.take_in(&message, arguments.json);
+                one.take_in(&message, arguments.interfaces.json);
                 if let Some(browser) = &browser {
                     browser.show(&message);
                 }
@@ -152,7 +152,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
                 if let (Some(browser), Ok(end)) = (&browser, &end) {
                     browser.end(end.finished.vehicle, &end.json());
                 }
-                if let (true, Ok(end)) = (arguments.json, &end) {
+                if let (true, Ok(end)) = (arguments.interfaces.json, &end) {
                     print_object(&end.json());
                 }
                 ended.push((place, end));
@@ -168,17 +168,17 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     let mut statuses = Vec::new();
     for (place, end) in ended {
         let end = end?;
-        if !arguments.json {
+        if !arguments.interfaces.json {
             terminal::print(format_args!("{}: ", end.finished.vehicle));
             terminal::print(end.summary(&shown[place].truths));
-            if arguments.timing {
+            if arguments.interfaces.timing {
                 terminal::print(TimingReport(&end.finished.ticks));
             }
         }
         statuses.push(end.status);
     }
     let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
-    if arguments.json {
+    if arguments.interfaces.json {
         print_object(&json!({ "type": "fleet_end", "exit_status": status }));
     }
     Ok(status)
@@ -227,7 +227,7 @@ fn camera(runtime: &Runtime, member: &Member, mock: Option<&MockDrone>) -> Video
 fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConfig {
     let recordings = shown.iter().filter_map(|one| one.recording.as_ref());
     PageConfig {
-        plans: arguments.plans.clone(),
+        plans: arguments.interfaces.plans.clone(),
         flights: arguments.log.clone(),
         recordings: recordings.map(|recording| recording.path().to_owned()).collect(),
         settings: SettingsFile {
@@ -272,7 +272,8 @@ fn prepare<'a>(
         let drone = mock.as_ref().map_or_else(|| member.drone.clone(), mock_address);
         let label = if mock.is_some() { "mock drone" } else { &drone.host };
         progress.print_line(&beginning(name, member.plan.as_ref(), label));
-        let station = arguments.mavlink.wanted(&member.config)?.map(Station::bind).transpose()?;
+        let station =
+            arguments.interfaces.mavlink.wanted(&member.config)?.map(Station::bind).transpose()?;
         if let Some(station) = &station {
             progress.print_line(&format!("{name}: {}", station.wanted));
             if let Some(warning) = station.wanted.warning {
@@ -307,8 +308,9 @@ fn beginning(name: VehicleName, plan: Option<&Plan>, drone: &str) -> String {
 /// How standard input is read if no keys are.
 fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
     let waits = fleet.members.iter().any(|member| member.plan.is_none());
-    let at_end = if waits && !arguments.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
-    match (arguments.json, waits) {
+    let at_end =
+        if waits && !arguments.interfaces.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
+    match (arguments.interfaces.json, waits) {
         (true, _) => Some((Lines::Json, at_end)),
         (false, true) => Some((Lines::Typed, at_end)),
         // With plans, standard input is ignored.

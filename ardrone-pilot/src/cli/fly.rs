@@ -47,11 +47,11 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         settings.use_tags(&arguments.tag)?;
     }
     let config = settings.pilot_config(arguments.z_origin());
-    let mavlink = arguments.mavlink.wanted(&config)?;
+    let mavlink = arguments.interfaces.mavlink.wanted(&config)?;
     let surveyed = settings.surveyed_tags();
     let plan = arguments.plan.as_deref();
     let plan = plan.map(|path| read_plan(path, surveyed.as_deref(), &config.limits)).transpose()?;
-    let plain = arguments.plain || !std::io::stderr().is_terminal();
+    let plain = arguments.interfaces.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain, [config.name]);
     for note in notes(plan.as_ref(), surveyed.as_deref(), &config.limits) {
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let drone = mock.as_ref().map_or_else(|| drone_address(arguments), mock_address);
     progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
-    let listener = arguments.ui.map(Listener::bind).transpose()?;
+    let listener = arguments.interfaces.ui.map(Listener::bind).transpose()?;
     let mavlink = mavlink.map(Station::bind).transpose()?;
     let mut stations: Vec<String> =
         listener.iter().map(|listener| format!("watch it at {}", listener.url())).collect();
@@ -99,7 +99,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let browser = listener.map(open);
     let mavlink = mavlink.and_then(|station| station.open(&runtime, &controls, &mut progress));
     let crew = Crew::new(vec![controls.clone()]);
-    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let wanted = !plain && !arguments.interfaces.json && std::io::stdin().is_terminal();
     let screen = || Screen::start([config.limits], crew.clone(), warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let keys = Keys::start(crew.clone(), &config.limits, prompt);
@@ -128,7 +128,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     if let Some(browser) = outputs.browser {
         browser.end(config.name, &end);
     }
-    if arguments.json {
+    if arguments.interfaces.json {
         print_object(&end);
         return Ok(status);
     }
@@ -138,7 +138,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         recorded: recorded.as_ref(),
         flew_a_plan: !stays,
     });
-    if arguments.timing {
+    if arguments.interfaces.timing {
         terminal::print(TimingReport(&finished.ticks));
     }
     Ok(status)
@@ -182,14 +182,15 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
 
 /// Reads orders from standard input if no keys are read from it.
 fn read_orders(arguments: &Fly, limits: &FlightLimits, crew: Crew) -> std::io::Result<()> {
-    let lines = match (arguments.json, arguments.plan.is_some()) {
+    let lines = match (arguments.interfaces.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,
         // With a plan, standard input is ignored.
         (false, true) => return Ok(()),
     };
-    let elsewhere =
-        arguments.plan.is_some() || arguments.ui.is_some() || arguments.mavlink.is_given();
+    let elsewhere = arguments.plan.is_some()
+        || arguments.interfaces.ui.is_some()
+        || arguments.interfaces.mavlink.is_given();
     let at_end = if elsewhere { AtEnd::GoOn } else { AtEnd::Quit };
     program::read_orders(lines, at_end, limits, crew)
 }
@@ -267,7 +268,7 @@ impl Outputs<'_> {
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);
         }
-        if self.arguments.json {
+        if self.arguments.interfaces.json {
             print_object(&json::message(message, &self.steps));
         }
         if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
@@ -390,7 +391,7 @@ pub(super) fn record_to(
 /// What the page offers besides the flight.
 fn page_config(arguments: &Fly, settings: &Settings, recording: Option<&Recording>) -> PageConfig {
     PageConfig {
-        plans: arguments.plans.clone(),
+        plans: arguments.interfaces.plans.clone(),
         flights: log_folder(arguments),
         recordings: recording.iter().map(|recording| recording.path().to_owned()).collect(),
         settings: SettingsFile {
@@ -434,7 +435,7 @@ fn watch_video(
     recording: Option<&Recording>,
 ) -> Option<Video> {
     let recorder = recording.filter(|_| arguments.record_video).map(Recording::video);
-    if recorder.is_none() && arguments.ui.is_none() {
+    if recorder.is_none() && arguments.interfaces.ui.is_none() {
         return None;
     }
     let (host, port) = match mock.map(MockDrone::ports) {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::separation::Neighbour;
-use autopilot::vehicle::{CannotFly, Input, Start, Telemetry, Vehicle};
+use autopilot::vehicle::{CannotFly, Input, Telemetry, Vehicle};
 use kinematics::Pose;
 use nalgebra::Vector2;
 
@@ -61,7 +61,6 @@ struct Flying {
     alone: Option<SimulatedFlight>,
     system: u8,
     driver: Driver<Simulated>,
-    start: Start,
     outcome: Option<Outcome>,
     /// Where it was in each tenth of a second: nowhere on the ground.
     places_m: Vec<Option<Vector2<f64>>>,
@@ -80,7 +79,6 @@ impl Flying {
             alone: plan.as_ref().map(fly).transpose()?,
             system: config.system,
             driver: Driver::new(vehicle, &world),
-            start: config.estimator.start.unwrap_or_default(),
             outcome: None,
             places_m: Vec::new(),
         })
@@ -99,9 +97,8 @@ impl Flying {
             }
         });
         if now >= TRACK * u32::try_from(self.places_m.len()).unwrap_or(u32::MAX) {
-            let position_m = self.driver.world().truth().position_m;
             let is_up = self.driver.vehicle.decision().is_some_and(simulation::is_in_the_air);
-            self.places_m.push(is_up.then(|| self.start.in_world(position_m.xy())));
+            self.places_m.push(is_up.then(|| self.driver.world().presence().position_m.xy()));
         }
         let told = ticked.then(|| self.driver.vehicle.as_neighbour(now)).flatten();
         self.driver.pass();

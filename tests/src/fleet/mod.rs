@@ -135,7 +135,6 @@ impl FleetFlight {
 
 struct Flying {
     driver: Driver<Simulated>,
-    start: Start,
     flight: MemberFlight,
     orders: VecDeque<(Duration, OperatorOrder)>,
     /// When its drone was last not heard for too long.
@@ -147,9 +146,7 @@ struct Flying {
 impl Flying {
     /// Its true place in the common frame.
     fn place_m(&self) -> Vector3<f64> {
-        let truth = self.driver.world().truth();
-        let turned = world_from_body(truth.position_m.xy(), self.start.heading_deg);
-        (turned + self.start.place_m).push(truth.position_m.z)
+        self.driver.world().presence().position_m
     }
 
     fn is_up(&self) -> bool {
@@ -248,7 +245,6 @@ impl Fleet {
             let world = WorldConfig { start, ..member.world.clone() };
             flying.push(Flying {
                 driver: Driver::new(vehicle, &world),
-                start: member.start,
                 flight: MemberFlight {
                     outcome: None,
                     ended: limit,
