@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::Border;
-use autopilot::vehicle::{FlightEvent, OperatorOrder, Setpoint, Start, Veto};
+use autopilot::vehicle::{FlightEvent, OperatorOrder, Place, Setpoint, Start, Veto};
 use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
 use mock_drone::scenario::Scenario;
@@ -116,39 +116,43 @@ fn nobody_takes_off_beside_one_that_stands_there() {
     assert!(flown(&from_to([5.0, 5.0], &[still(0.0), still(1.7)], 1)).is_complete());
 }
 
-/// The first shuttles past the second one, which takes off for another flight. Each hears the other a second late.
+/// The first shuttles past the second one, which takes off for another flight at any moment of that. Each hears the other a second
+/// late.
 #[test]
 fn who_takes_off_has_told_those_that_come_past() {
-    for (y_m, speed_m_s, starts_s) in
-        [(0.270_196_332_637, 2.2, 21.890_546_659_57), (0.161_407_454_412, 2.2, 22.126_146_678_08)]
-    {
-        let legs = format!("goto 5 {y_m} 0.5 0\ngoto -5 {y_m} 0.5 0\n").repeat(6);
-        let mut fleet =
-            from_to([9.0, 9.0], &[([-5.0, 3.5], [0.0, 0.0], 0), ([0.0; 2], [0.0; 2], 0)], 1);
-        fleet.members[0].plan =
-            format!("setSpeed {speed_m_s}\nsetStayTime 0.5\ntakeoff\n{legs}land\n");
+    let legs = "goto 5 0.2 0.5 0\ngoto -5 0.2 0.5 0\n".repeat(6);
+    let to_and_fro = format!("setSpeed 2.2\nsetStayTime 0.5\ntakeoff\n{legs}land\n");
+    let mut took_off = 0;
+    for tenths in 200..300 {
+        let fence_m = [9.0, 9.0];
+        let mut fleet = from_to(fence_m, &[([-5.0, 3.5], [0.0; 2], 0), ([0.0; 2], [0.0; 2], 0)], 1);
+        fleet.members[0].plan.clone_from(&to_and_fro);
         fleet.members[1].plan = "takeoff\nland\n".to_owned();
         let again = plan("takeoff\nsetStayTime 8\ngoto 0 0 0.5 0\nland\n");
         let start = OperatorOrder::Start { when_ready: true };
-        fleet.members[1].orders = [(starts_s - 2.0, OperatorOrder::Load(again)), (starts_s, start)]
-            .map(|(at_s, order)| (Duration::from_secs_f64(at_s), order))
-            .to_vec();
+        let at = Duration::from_millis(100 * tenths);
+        fleet.members[1].orders = vec![(at, OperatorOrder::Load(again)), (at, start)];
         fleet.air.delay = Duration::from_secs(1);
         let flight = flown(&fleet);
-        assert!(flight.keeps_apart(), "{y_m} {starts_s}: {flight:?}");
+        assert!(flight.nearest_m() > 1.5 && flight.is_down, "{tenths}: {flight:?}");
+        // The others were refused: the first one was just coming past.
+        took_off += usize::from(flight.members[1].ended > at);
     }
+    assert!(took_off > 10, "{took_off}");
 }
 
-/// The one keeps 0.8 m from others, the other 3 m: both make the room for that.
+/// The one keeps 0.8 m from others, the other 3 m: neither goes nearer than that, though only one of them wants so much.
 #[test]
 fn two_with_different_separations_keep_the_larger_one() {
-    let mut fleet = side_by_side(Vec::new());
-    fleet.members[1].start.place_m.x = 3.2;
+    let nearer = OperatorOrder::GoTo(Place::at(1.8, 0.0));
+    let mut fleet = side_by_side(vec![(Duration::from_secs(10), nearer)]);
+    fleet.members[1].start.place_m.x = 3.6;
+    fleet.members[1].plan = "takeoff\nsetStayTime 20\ngoto 3.6 0 0.5 0\nland\n".to_owned();
     fleet.members[0].pilot.separation_m = 0.8;
     fleet.members[1].pilot.separation_m = 3.0;
     let flight = flown(&fleet);
     let is_crowded = [0, 1].map(|number| vetoed(&flight, number, Veto::Crowded));
-    assert!(is_crowded == [false; 2] && flight.nearest_m() > 2.7, "{flight:?}");
+    assert!(is_crowded == [false; 2] && flight.nearest_m() > 3.0, "{flight:?}");
 }
 
 /// A tag that is seen again may move what a vehicle believes of its place by so much.
