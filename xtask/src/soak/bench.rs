@@ -49,7 +49,7 @@ impl Programs {
     /// Builds both programs in the same profile as this one.
     pub(crate) fn build(pilot: Option<PathBuf>) -> Result<Self, BenchError> {
         let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "-p", "ardrone-pilot", "-p", "mock-drone", "--bins"]);
+        build.args(["build", "--quiet", "--workspace", "--bins"]);
         if !cfg!(debug_assertions) {
             build.arg("--release");
         }
