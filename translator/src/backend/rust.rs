@@ -114,9 +114,13 @@ fn environment_trait(writer: &mut Writer, program: &Program) {
     writer.line("/// Called at the start of each deliberation cycle.");
     writer.line("fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>);");
     for basic in &program.configuration.basics {
+        if messages::sent(program, basic).is_some() {
+            continue;
+        }
         writer.line(format!("/// The basic action `{}`.", basic.name.text));
         writer.line(format!("fn {};", method_signature(basic)));
     }
+    messages::send(writer, program);
     writer.close("}");
     writer.line("");
 }
@@ -215,9 +219,14 @@ fn shims(writer: &mut Writer, program: &Program) {
                     .line(format!("let {name} = unsafe {{ core::ffi::CStr::from_ptr({name}) }};"));
             }
         }
-        let arguments: Vec<String> = (0..basic.parameters.len()).map(argument).collect();
-        let method = snake_case(&basic.name.text);
-        writer.line(format!("environment.{method}({})", arguments.join(", ")));
+        match messages::sent(program, basic) {
+            Some(message) => messages::pass_on(writer, &message),
+            None => {
+                let arguments: Vec<String> = (0..basic.parameters.len()).map(argument).collect();
+                let method = snake_case(&basic.name.text);
+                writer.line(format!("environment.{method}({})", arguments.join(", ")));
+            }
+        }
         writer.close(&format!("}}){semicolon}"));
         writer.close("}");
     }

@@ -109,13 +109,13 @@ const PEERS: Case = Case {
 
 const PEERS_MAIN: &str = r#"
 mod bindings { include!("bindings.rs"); }
-use bindings::{Agent, Beliefs, Environment, Peer};
+use bindings::{Agent, Beliefs, Environment, Message, Peer};
 struct World;
 impl Environment for World {
     fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
     fn show(&mut self, x: i32) { println!("show {x}"); }
     fn who(&mut self, peer: u8) { println!("who {peer}"); }
-    fn send_tell_at(&mut self, to: u8, x: i32) { println!("send {to} {x}"); }
+    fn send(&mut self, to: Peer, message: Message) { println!("send {to}: {message}"); }
 }
 fn main() {
     let mut agent = Agent::new(Peer::Wingman);
@@ -136,7 +136,7 @@ fn main() {
 fn agents_that_talk_are_compiled_and_bound() {
     PEERS.compile();
     let printed = bound(&PEERS, PEERS_MAIN);
-    let expected = "false true true false true show 5 who 0 who 1 show 4 who 0 send 0 5 true true";
+    let expected = "false true true false true show 5 who 0 who 1 show 4 who 0 send leader: tell at(5) true true";
     assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" "), expected);
 }
 
@@ -436,6 +436,7 @@ impl Environment for World {
     fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
     fn now(&mut self) -> i64 { if self.0 == 99 { panic!("no time") } self.0 += 7; self.0 }
     fn seen(&mut self, age: i64) { println!("seen {age}"); }
+    fn send(&mut self, _: Peer, _: Message) {}
 }
 fn main() {
     let mut agent = Agent::new(Peer::Wingman);

@@ -47,6 +47,7 @@ impl Environment for World {
     fn who(&mut self, peer: u8) { self.0 += &format!(" who {}", Peer::try_from(peer).unwrap()); }
     fn place(&mut self, place: PlaceT) { self.0 += &format!(" place {}", place_bits(place)); }
     fn both(&mut self, x: f32, y: f32) { self.0 += &format!(" both {x} {y}"); }
+    fn send(&mut self, to: Peer, message: Message) { self.0 += &format!(" send {to} {message}"); }
 }
 
 fn place_bits(PlaceT { x, y, known }: PlaceT) -> String {
@@ -120,8 +121,8 @@ fn main() {
             "peer" => println!("{:?} {:?}", rest.parse::<Peer>(), Peer::try_from(rest.len() as u8)),
             "hear" => match text(rest).parse::<Envelope>() {
                 Ok(Envelope { from, message }) => {
-                    let accepted = agent.receive(from, message);
                     let mut world = World::default();
+                    let accepted = agent.receive(&mut world, from, message);
                     agent.next_step(&mut world);
                     println!("{accepted}{}", world.0);
                 }

@@ -11,7 +11,7 @@ use super::templates::{
 use super::{arguments, camel_case, lent, safe_type, snake_case, typed_parameters};
 use crate::backend::c::{Received, received, symbol_prefix};
 use crate::backend::writer::Writer;
-use crate::configuration::{Configuration, MessagesVersion};
+use crate::configuration::{Basic, Configuration, MessagesVersion, sending};
 use crate::program::Program;
 use crate::syntax::ast::Performative;
 use crate::types::{CType, TypeKind};
@@ -327,6 +327,38 @@ fn taken(leaf: &Leaf) -> String {
     format!("self.argument(\"{before}\", {read})?")
 }
 
+/// The message that a basic action sends, if it is one that sends.
+pub(super) fn sent(program: &Program, basic: &Basic) -> Option<Received> {
+    let name = &basic.name.text;
+    let function = |function: &Received| sending(function.performative, &function.about) == *name;
+    received(program).into_iter().find(function)
+}
+
+/// The method of the environment for all that the agent says.
+pub(super) fn send(writer: &mut Writer, program: &Program) {
+    if program.configuration.messages_version().is_some() {
+        writer.line("/// The agent says this to a peer.");
+        writer.line("fn send(&mut self, to: Peer, message: Message);");
+    }
+}
+
+/// Passes on to the environment what C sends.
+pub(super) fn pass_on(writer: &mut Writer, message: &Received) {
+    let names: Vec<String> =
+        (0..said(message).len()).map(|index| super::argument(index + 1)).collect();
+    writer.line(
+        "// In C a peer is a number; the agent knows no other numbers than those of its peers.",
+    );
+    let peers = names.iter().zip(said(message)).filter(|(_, ctype)| ctype.is_peer());
+    let peers = std::iter::once(super::argument(0)).chain(peers.map(|(name, _)| name.clone()));
+    for peer in peers {
+        writer.line(format!("let Ok({peer}) = Peer::try_from({peer}) else {{ return }};"));
+    }
+    let values = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
+    let (to, variant) = (super::argument(0), variant_of(message));
+    writer.line(format!("environment.send({to}, Message::{variant}{values})"));
+}
+
 /// The methods for messages that arrive.
 pub(super) fn receive(writer: &mut Writer, program: &Program) {
     let prefix = symbol_prefix(program);
@@ -359,15 +391,17 @@ pub(super) fn receive(writer: &mut Writer, program: &Program) {
 
 /// The method for all messages.
 fn receive_any(writer: &mut Writer, functions: &[Received]) {
-    let asks_time = functions.iter().any(|function| function.asks_time);
     writer.line("");
     writer.line("/// A peer says this. Returns whether it was accepted, as the method of this message does.");
+    writer.line("/// The environment is asked for the time, if the agent asks how old it is.");
     writer.line("#[must_use = \"a refused message is lost\"]");
-    let lends = if asks_time { ", environment: &mut dyn Environment" } else { "" };
-    writer.open_here(format!(
-        "pub fn receive(&mut self{lends}, from: Peer, message: Message) -> bool"
-    ));
+    writer.open_here(
+        "pub fn receive(&mut self, environment: &mut dyn Environment, from: Peer, message: Message) -> bool",
+    );
     writer.line("let from = from as u8;");
+    if !functions.iter().any(|function| function.asks_time) {
+        writer.line("_ = environment;");
+    }
     writer.open_here("match message");
     for function in functions {
         let names: Vec<String> = (0..said(function).len()).map(super::argument).collect();
