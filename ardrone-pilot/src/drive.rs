@@ -3,6 +3,7 @@
 //! It is the same over UDP in real time ([`flight`](crate::flight)) and with a simulated drone: only the
 //! [`Surroundings`] differ.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
@@ -10,7 +11,11 @@ use autopilot::Vehicle;
 use autopilot::vehicle::{
     Input, Operator, OperatorOrder, Output, Refused, Stage, TICK, Telemetry, Transmit,
 };
+use mission_agent::{Line, MissionAgent, Misunderstood, Said};
 use mock_drone::{Message, Presence, World, WorldConfig};
+
+/// Lines of other agents that are taken in a tick; further ones wait.
+const LINES_PER_TICK: usize = 32;
 
 /// What a vehicle is connected to, with its clock.
 pub trait Surroundings {
@@ -35,6 +40,16 @@ pub trait Surroundings {
 
     /// Sends something to the drone.
     fn send(&mut self, now: Duration, transmit: Transmit<'_>);
+
+    /// Something that the agent of another vehicle has said.
+    fn hear(&mut self) -> Option<Line> {
+        None
+    }
+
+    /// The agent says something to that of another vehicle.
+    fn say(&mut self, said: Said) {
+        _ = said;
+    }
 }
 
 /// Takes an input; refuses as [`Vehicle::handle`].
@@ -59,6 +74,10 @@ pub enum Passed<'a> {
     },
     /// The vehicle tells something.
     Told(Telemetry),
+    /// Its agent says something to that of another vehicle.
+    Said(Said),
+    /// Something that was said to its agent is not understood.
+    Misunderstood(Misunderstood),
 }
 
 /// A vehicle and what it is connected to.
@@ -68,6 +87,8 @@ pub struct Driver<S> {
     pub vehicle: Vehicle,
     /// What it is connected to.
     pub surroundings: S,
+    /// What gives its orders in place of a plan.
+    pub agent: Option<MissionAgent>,
     /// When the next tick is due.
     deadline: Duration,
 }
@@ -75,7 +96,7 @@ pub struct Driver<S> {
 impl<S: Surroundings> Driver<S> {
     /// A driver at time zero.
     pub fn over(vehicle: Vehicle, surroundings: S) -> Self {
-        Self { vehicle, surroundings, deadline: Duration::ZERO }
+        Self { vehicle, surroundings, agent: None, deadline: Duration::ZERO }
     }
 
     /// Time since the beginning.
@@ -96,8 +117,32 @@ impl<S: Surroundings> Driver<S> {
         self.surroundings.begin_tick(now, self.deadline, missed);
         self.deadline += TICK;
         self.receive(now, None, &mut tee);
-        self.tick(now, late, tee);
+        self.tick(now, late, &mut tee);
+        self.deliberate(&mut tee);
         true
+    }
+
+    /// One step of the agent. What it orders takes effect in the next tick, as any order that arrives after this one.
+    fn deliberate(&mut self, tee: &mut impl FnMut(Duration, Passed<'_>)) {
+        let Self { vehicle, surroundings, agent: Some(agent), .. } = self else { return };
+        let now = surroundings.now();
+        for _ in 0..LINES_PER_TICK {
+            let Some(line) = surroundings.hear() else { break };
+            if let Err(problem) = agent.hear(now, &line) {
+                tee(now, Passed::Misunderstood(problem));
+            }
+        }
+        for order in agent.step(now, vehicle) {
+            let order = Input::Order(Operator::AGENT, order);
+            if let Err(refused) = handle(vehicle, now, order, &mut *tee) {
+                agent.refused(now, &refused);
+                break;
+            }
+        }
+        for said in agent.take_said() {
+            tee(now, Passed::Said(said));
+            surroundings.say(said);
+        }
     }
 
     fn receive(
@@ -197,6 +242,18 @@ pub fn share_air<'a>(drivers: impl IntoIterator<Item = &'a mut Driver<Simulated>
     }
 }
 
+/// Takes what the agents of simulated vehicles have said to those whose vehicles are called so; what is said to nobody is lost.
+pub fn deliver<'a>(drivers: impl IntoIterator<Item = &'a mut Driver<Simulated>>) {
+    let mut drivers: Vec<_> = drivers.into_iter().collect();
+    let said = drivers.iter_mut().flat_map(|driver| std::mem::take(&mut driver.surroundings.said));
+    for Said { to, line } in said.collect::<Vec<_>>() {
+        if let Some(driver) = drivers.iter_mut().find(|driver| driver.vehicle.name().as_str() == to)
+        {
+            driver.surroundings.heard.push_back(line);
+        }
+    }
+}
+
 /// Interval of handling navdata in simulated time; the drone's own steps are finer.
 pub const POLL: Duration = Duration::from_millis(5);
 
@@ -205,6 +262,10 @@ pub const POLL: Duration = Duration::from_millis(5);
 pub struct Simulated {
     /// The drone and the air around it.
     pub world: World,
+    /// What its agent has said, until it is taken to the others.
+    pub said: Vec<Said>,
+    /// What others have said to its agent.
+    pub heard: VecDeque<Line>,
     now: Duration,
 }
 
@@ -239,12 +300,20 @@ impl Surroundings for Simulated {
             Transmit::WakeUp => self.world.send_wake_up(now, &WAKE_UP),
         }
     }
+
+    fn hear(&mut self) -> Option<Line> {
+        self.heard.pop_front()
+    }
+
+    fn say(&mut self, said: Said) {
+        self.said.push(said);
+    }
 }
 
 impl Simulated {
     /// A simulated drone at time zero.
     pub fn new(world: World) -> Self {
-        Self { world, now: Duration::ZERO }
+        Self { world, said: Vec::new(), heard: VecDeque::new(), now: Duration::ZERO }
     }
 }
 

@@ -53,6 +53,14 @@ fn content(content: &Content, steps: &[Step]) -> Value {
     match content {
         Content::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
         Content::Telemetry(at, told, ticks) => telemetry(*at, told, *ticks, steps),
+        Content::Said { at, said, again } => json!({
+            "type": "message",
+            "t_s": at.as_secs_f64(),
+            "to": said.to,
+            "text": said.text(),
+            "line": said.line.as_str(),
+            "again": again,
+        }),
         Content::Trouble(at, trouble) => json!({
             "type": "event",
             "t_s": at.as_secs_f64(),

@@ -118,7 +118,7 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
         Some(plan(PLAN)),
         &config,
         &address,
-        Beside { recorder: Some(recorder), seat: None },
+        Beside { recorder: Some(recorder), ..Beside::default() },
     )
     .unwrap();
     assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);

@@ -96,7 +96,7 @@ fn over_udp_two_fly_at_once_into_one_folder() {
             flown,
             &config,
             &address,
-            Beside { recorder: Some(recorder), seat: None },
+            Beside { recorder: Some(recorder), ..Beside::default() },
         )
         .unwrap();
         (config.name, flight, recording, mock)

@@ -76,10 +76,11 @@ impl Snapshot {
         let object = json::message(message, &self.steps);
         let (at, telemetry) = match &message.content {
             Content::Telemetry(at, telemetry, _) => (at, telemetry),
-            Content::Trouble(..) => {
+            Content::Trouble(..) | Content::Said { again: false, .. } => {
                 self.remember(&object);
                 return object;
             }
+            Content::Said { .. } => return object,
             Content::Realtime(_) => return object,
         };
         match telemetry {

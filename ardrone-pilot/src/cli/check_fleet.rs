@@ -13,7 +13,7 @@ use super::arguments::CheckPlan;
 use super::check::write_drawing;
 use super::fleet::own_drones;
 use super::{CommandError, terminal};
-use crate::fleet::{self, Fleet, FleetError, Meeting, Member, SimulatedFleet, SimulatedMember};
+use crate::fleet::{self, Fleet, Meeting, Member, SimulatedFleet, SimulatedMember};
 use crate::{fleet_drawing, json};
 
 /// Whether a file is that of a fleet, by its name.
@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         return Err(CommandError::OfPlans);
     }
     let fleet = Fleet::read(&arguments.plan, arguments.z_origin.into())?;
-    let simulated = fleet::fly(&fleet).map_err(FleetError::from)?;
+    let simulated = fleet::fly(&fleet)?;
     let report = Report { name: &name, fleet: &fleet, simulated: &simulated };
     if arguments.json {
         terminal::print(json::text_in_lines(&report.json()) + "\n");
@@ -53,15 +53,21 @@ impl Report<'_> {
         &self.fleet.members[number]
     }
 
-    /// Those who would come nearer to each other than they may.
+    /// Those who would come nearer to each other than they may, or of whom that is not known.
     fn conflicts(&self) -> impl Iterator<Item = &Meeting> {
         let separation_m = |meeting: &Meeting| self.member(meeting.who[0]).config.separation_m;
-        self.simulated.meetings.iter().filter(move |it| it.alone_m < separation_m(it))
+        let would_meet =
+            move |it: &&Meeting| it.alone.is_none_or(|(alone_m, _)| alone_m < separation_m(it));
+        self.simulated.meetings.iter().filter(would_meet)
     }
 
     /// Those that do not fly their plans to the end with the others.
     fn short(&self) -> impl Iterator<Item = &SimulatedMember> {
         self.simulated.members.iter().filter(|member| !is_flown(member.outcome.as_ref()))
+    }
+
+    fn mission_of(&self, member: &SimulatedMember) -> &'static str {
+        if self.member(member.number).plan.is_some() { "plan" } else { "mission" }
     }
 
     fn json(&self) -> Value {
@@ -70,8 +76,8 @@ impl Report<'_> {
         let conflicts = self.conflicts().map(|it| {
             json!({
                 "vehicles": it.who.map(name),
-                "at_s": it.at.as_secs_f64(),
-                "planned_m": it.alone_m,
+                "at_s": it.alone.map(|(_, at)| at.as_secs_f64()),
+                "planned_m": it.alone.map(|(alone_m, _)| alone_m),
                 "kept_apart_m": finite(it.together_m),
             })
         });
@@ -97,13 +103,22 @@ impl Report<'_> {
             "vehicle": config.name,
             "system": config.system,
             "start": [place_m.x, place_m.y, heading_deg],
-            "alone_s": simulated.alone.duration.as_secs_f64(),
-            "battery_percent": simulated.alone.battery_percent,
+            "alone_s": simulated.alone.as_ref().map(|alone| alone.duration.as_secs_f64()),
+            "battery_percent": simulated.alone.as_ref().map(|alone| alone.battery_percent),
             "together_s": simulated.duration.as_secs_f64(),
+            "messages": simulated.said.iter().map(|(at, said)| json!({
+                "t_s": at.as_secs_f64(),
+                "to": said.to,
+                "text": said.text(),
+            })).collect::<Vec<_>>(),
             "outcome": outcome(simulated.outcome.as_ref()),
             "completed": is_flown(simulated.outcome.as_ref()),
         })
     }
+}
+
+fn or_dash(text: Option<String>) -> String {
+    text.unwrap_or_else(|| "-".to_owned())
 }
 
 fn finite(number: f64) -> Option<f64> {
@@ -130,16 +145,16 @@ impl fmt::Display for Report<'_> {
             "right", "forward", "heading", "alone", "battery", "together"
         )?;
         for member in &self.simulated.members {
-            let config = &self.member(member.number).config;
+            let (config, alone) = (&self.member(member.number).config, member.alone.as_ref());
             let Start { place_m, heading_deg, .. } = config.estimator.start.unwrap_or_default();
             writeln!(
                 f,
-                "{:<16}  {:>7.2} {:>7.2} {heading_deg:>6.0}°  {:>8} {:>6.1} %  {:>8}",
+                "{:<16}  {:>7.2} {:>7.2} {heading_deg:>6.0}°  {:>8} {:>8}  {:>8}",
                 config.name.as_str(),
                 place_m.x,
                 place_m.y,
-                seconds(member.alone.duration),
-                member.alone.battery_percent,
+                or_dash(alone.map(|alone| seconds(alone.duration))),
+                or_dash(alone.map(|alone| format!("{:.1} %", alone.battery_percent))),
                 seconds(member.duration),
             )?;
         }
@@ -153,18 +168,26 @@ impl fmt::Display for Report<'_> {
                 Some(together_m) => format!("never nearer than {together_m:.2} m"),
                 None => "never in the air at the same time".to_owned(),
             };
-            writeln!(
-                f,
-                "{a} and {b}: {:.2} m from each other at {} as planned; kept apart, {together}",
-                meeting.alone_m,
-                seconds(meeting.at)
-            )?;
+            match meeting.alone {
+                Some((alone_m, at)) => writeln!(
+                    f,
+                    "{a} and {b}: {alone_m:.2} m from each other at {} as planned; kept apart, {together}",
+                    seconds(at)
+                )?,
+                None => writeln!(f, "{a} and {b}: {together}")?,
+            }
         }
         for member in self.short() {
             let name = self.member(member.number).config.name;
-            let how = if is_flown(member.alone.outcome.as_ref()) { " with the others" } else { "" };
+            let alone = member.alone.as_ref();
+            let with_others = alone.is_some_and(|alone| is_flown(alone.outcome.as_ref()));
+            let how = if with_others { " with the others" } else { "" };
             let outcome = outcome(member.outcome.as_ref());
-            writeln!(f, "{name}: does not fly its plan to the end{how}: {outcome}")?;
+            writeln!(
+                f,
+                "{name}: does not fly its {} to the end{how}: {outcome}",
+                self.mission_of(member)
+            )?;
         }
         if let Err(shared) = own_drones(self.fleet) {
             writeln!(f, "only with simulated drones: {shared}")?;

@@ -4,7 +4,7 @@ use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use ardrone_link::DroneAddress;
-use autopilot::plan::{Plan, Step};
+use autopilot::plan::Step;
 use autopilot::vehicle::{Start, Telemetry, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{Air, MockDrone, Ports};
@@ -24,7 +24,7 @@ use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
 use crate::browser::{self, Listener, PageConfig, Planning, SettingsFile};
-use crate::fleet::{Fleet, Member};
+use crate::fleet::{Fleet, FleetError, Member};
 use crate::flight::{Beside, Content, FinishedFlight, Flight, FlightError, Message, Seat};
 use crate::json;
 use crate::mavlink::MavlinkServer;
@@ -102,9 +102,11 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let (mut flying, mut shown) = (Vec::new(), Vec::new());
-    for (prepared, seat) in prepared.into_iter().zip(Seat::in_one_room(fleet.members.len())) {
+    let names = fleet.members.iter().map(|member| member.config.name);
+    for (prepared, seat) in prepared.into_iter().zip(Seat::in_one_room(names)) {
         let Prepared { member, mock, drone, station, recorder, recording } = prepared;
-        let beside = Beside { recorder, seat: Some(seat) };
+        let agent = member.new_agent().map_err(FleetError::from)?;
+        let beside = Beside { recorder, seat: Some(seat), agent };
         // Those that have begun land if one cannot.
         let flight = Flight::start(&runtime, member.plan.clone(), &member.config, &drone, beside)?;
         let controls = flight.controls();
@@ -113,7 +115,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         flying.push(Under { member, flight, mavlink, video });
         let start = member.config.estimator.start.unwrap_or_default();
         let (steps, truths) = (Vec::new(), Vec::new());
-        let flies_a_plan = member.plan.is_some();
+        let flies_a_plan = member.has_a_mission();
         shown.push(Shown { mock, start, flies_a_plan, recording, steps, truths });
     }
     let open = |listener: Listener| {
@@ -271,7 +273,7 @@ fn prepare<'a>(
         };
         let drone = mock.as_ref().map_or_else(|| member.drone.clone(), mock_address);
         let label = if mock.is_some() { "mock drone" } else { &drone.host };
-        progress.print_line(&beginning(name, member.plan.as_ref(), label));
+        progress.print_line(&beginning(member, label));
         let station =
             arguments.interfaces.mavlink.wanted(&member.config)?.map(Station::bind).transpose()?;
         if let Some(station) = &station {
@@ -298,16 +300,18 @@ fn prepare<'a>(
     Ok(all)
 }
 
-fn beginning(name: VehicleName, plan: Option<&Plan>, drone: &str) -> String {
-    match plan {
-        Some(plan) => format!("{name}: flying {} with {drone}", plan.name()),
-        None => format!("{name}: waiting for orders to {drone}"),
+fn beginning(member: &Member, drone: &str) -> String {
+    let name = member.config.name;
+    match (&member.plan, &member.agent) {
+        (Some(plan), _) => format!("{name}: flying {} with {drone}", plan.name()),
+        (None, Some((agent, _))) => format!("{name}: the agent {agent} flies {drone}"),
+        (None, None) => format!("{name}: waiting for orders to {drone}"),
     }
 }
 
 /// How standard input is read if no keys are.
 fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
-    let waits = fleet.members.iter().any(|member| member.plan.is_none());
+    let waits = !fleet.members.iter().all(Member::has_a_mission);
     let at_end =
         if waits && !arguments.interfaces.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
     match (arguments.interfaces.json, waits) {
@@ -378,7 +382,7 @@ impl Shown {
     fn take_in(&mut self, message: &Message, as_json: bool) {
         let telemetry = match &message.content {
             Content::Telemetry(_, telemetry, _) => Some(telemetry),
-            Content::Realtime(_) | Content::Trouble(..) => None,
+            Content::Realtime(_) | Content::Trouble(..) | Content::Said { .. } => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);

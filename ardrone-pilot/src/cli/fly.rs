@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let video = watch_video(&runtime, arguments, mock.as_ref(), recording.as_ref());
-    let beside = Beside { recorder, seat: None };
+    let beside = Beside { recorder, ..Beside::default() };
     let flight = Flight::start(&runtime, plan.clone(), &config, &drone, beside)?;
     let controls = flight.controls();
     let open = |listener: Listener| {
@@ -263,7 +263,7 @@ impl Outputs<'_> {
     fn send(&mut self, message: &Message, watch: &mut Watch) {
         let telemetry = match &message.content {
             Content::Telemetry(_, telemetry, _) => Some(telemetry),
-            Content::Realtime(_) | Content::Trouble(..) => None,
+            Content::Realtime(_) | Content::Trouble(..) | Content::Said { .. } => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);

@@ -67,6 +67,10 @@ impl Progress {
             }
             Content::Trouble(at, trouble) => Some(format!("{} {trouble}", time(*at))),
             Content::Realtime(realtime) => Some(realtime.to_string()),
+            Content::Said { again: true, .. } => None,
+            Content::Said { at, said, .. } => {
+                Some(format!("{} to {}: {}", time(*at), said.to, said.text()))
+            }
         };
         if let Some(line) = line {
             self.print_line(&format!("{}{line}", self.whose(place)));

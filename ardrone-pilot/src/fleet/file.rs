@@ -39,6 +39,13 @@ pub(super) struct Vehicle {
     pub(super) name: Spanned<VehicleName>,
     pub(super) start: Spanned<SurveyedStart>,
     pub(super) plan: Option<PathBuf>,
+    /// The agent that gives its orders, in place of a plan.
+    pub(super) agent: Option<Spanned<String>>,
+    /// Of which the agent may ask: right, forward, height, heading.
+    #[serde(default)]
+    pub(super) places: Vec<[f64; 4]>,
+    /// Charge of a simulated drone at the start, in percent.
+    pub(super) mock_battery: Option<Spanned<f64>>,
     /// The number of its MAVLink system; otherwise its place in the file.
     pub(super) system: Option<u8>,
     #[serde(default)]

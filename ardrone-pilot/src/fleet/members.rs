@@ -8,6 +8,7 @@ use autopilot::plan::{Plan, PlanError, TagUse, ZOrigin};
 use autopilot::vehicle::{CannotFly, VehicleConfig, VehicleName};
 use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText};
 use kinematics::Pose;
+use mission_agent::{MissionAgent, NoAgent};
 use mock_drone::WorldConfig;
 use nalgebra::Vector2;
 use toml::{Table, Value};
@@ -43,8 +44,12 @@ pub struct Member {
     pub settings: Settings,
     /// The same for the vehicle.
     pub config: VehicleConfig,
-    /// What it flies; without one it takes orders.
+    /// What it flies; without one it takes orders, of its agent or of operators.
     pub plan: Option<Plan>,
+    /// The name of its agent, which is built in, and the places of which that one may ask.
+    pub agent: Option<(String, Vec<Pose>)>,
+    /// Charge of its drone at the start if it is simulated, in percent; as usual otherwise.
+    pub mock_battery: Option<f64>,
     /// Its drone.
     pub drone: DroneAddress,
     /// TCP port of its drone's video.
@@ -81,6 +86,9 @@ pub enum FleetError {
     /// A plan cannot be flown.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// A vehicle has no agent of this name.
+    #[error(transparent)]
+    Agent(#[from] NoAgent),
     /// A vehicle refuses its plan or its limits.
     #[error(transparent)]
     Refused(#[from] CannotFly),
@@ -89,7 +97,28 @@ pub enum FleetError {
 impl Member {
     /// The world of a simulated drone in its place.
     pub fn world(&self) -> WorldConfig {
-        simulation::world(&self.config, self.plan.as_ref())
+        let mut world = simulation::world(&self.config, self.plan.as_ref());
+        if let Some(percent) = self.mock_battery {
+            world.drone.battery_percent = percent;
+        }
+        world
+    }
+
+    /// A new agent for it, if it has one.
+    ///
+    /// # Errors
+    /// [`NoAgent`] if that is not built in, or none of its peers is called like the vehicle.
+    pub fn new_agent(&self) -> Result<Option<MissionAgent>, NoAgent> {
+        let agent = self.agent.as_ref().map(|(agent, places)| {
+            let uses_tags = self.config.estimator.tags.is_some();
+            MissionAgent::new(agent, self.config.name.as_str(), places.clone(), uses_tags)
+        });
+        agent.transpose()
+    }
+
+    /// Whether it flies something by itself: a plan, or what its agent wants.
+    pub fn has_a_mission(&self) -> bool {
+        self.plan.is_some() || self.agent.is_some()
     }
 }
 
@@ -163,7 +192,16 @@ fn member(
     let config = settings.pilot_config(z_origin);
     let path = vehicle.plan.as_ref().map(|plan| folder.join(plan));
     let plan = path.map(|path| plan(&path, &settings, &config)).transpose()?;
-    Ok(Member { settings, config, plan, drone: vehicle.address(), video_port: vehicle.video_port })
+    let pose = |place: &[f64; 4]| {
+        let [x_m, y_m, z_m, yaw_deg] = *place;
+        Pose { x_m, y_m, z_m, yaw_deg }
+    };
+    let agent = vehicle.agent.as_ref();
+    let agent =
+        agent.map(|agent| (agent.get_ref().clone(), vehicle.places.iter().map(pose).collect()));
+    let mock_battery = vehicle.mock_battery.as_ref().map(|percent| *percent.get_ref());
+    let (drone, video_port) = (vehicle.address(), vehicle.video_port);
+    Ok(Member { settings, config, plan, agent, mock_battery, drone, video_port })
 }
 
 fn plan(path: &Path, settings: &Settings, config: &VehicleConfig) -> Result<Plan, FleetError> {
@@ -207,8 +245,54 @@ fn findings(written: &Written, config: &VehicleConfig, end: usize) -> Vec<Diagno
             findings.push(Diagnostic::error(message, span).help(help));
         }
         findings.extend(start_findings(vehicle, config, others().map(|(other, _)| other)));
+        findings.extend(agent_findings(vehicle, &written.vehicle));
+        if let Some(percent) = &vehicle.mock_battery
+            && !(0.0..=100.0).contains(percent.get_ref())
+        {
+            let message = format!("{name} has a charge of {} %", percent.get_ref());
+            let help = "write a number from 0 to 100";
+            findings.push(Diagnostic::error(message, percent.span()).help(help));
+        }
     }
     findings
+}
+
+/// What is wrong with a vehicle's agent.
+fn agent_findings(vehicle: &Vehicle, all: &[Vehicle]) -> Vec<Diagnostic> {
+    let name = vehicle.name.get_ref();
+    let Some(agent) = &vehicle.agent else {
+        let places = (!vehicle.places.is_empty()).then(|| {
+            let help = "give it an `agent`, or write the places into its plan";
+            Diagnostic::error(format!("{name} has places and no agent"), vehicle.name.span())
+                .help(help)
+        });
+        return places.into_iter().collect();
+    };
+    if vehicle.plan.is_some() {
+        let help = "an agent has the place of a plan: leave one of them out";
+        let message = format!("{name} has a plan and an agent");
+        return vec![Diagnostic::error(message, agent.span()).help(help)];
+    }
+    if vehicle.places.iter().flatten().any(|number| !number.is_finite()) {
+        let message = format!("{name} has a place with a number that is not finite");
+        return vec![Diagnostic::error(message, vehicle.name.span())];
+    }
+    match MissionAgent::new(agent.get_ref(), name.as_str(), Vec::new(), false) {
+        Err(problem) => vec![Diagnostic::error(problem.to_string(), agent.span())],
+        Ok(built) => {
+            let is_there =
+                |peer: &&&str| all.iter().any(|other| other.name.get_ref().as_str() == **peer);
+            let missing = built.peers().iter().find(|peer| !is_there(peer));
+            let missing = missing.map(|peer| {
+                let message = format!(
+                    "the agent of {name} talks with `{peer}`, which is no vehicle of this fleet"
+                );
+                Diagnostic::error(message, agent.span())
+                    .help("an agent knows the others by the names of their vehicles")
+            });
+            missing.into_iter().collect()
+        }
+    }
 }
 
 /// What is wrong or unwise in where a vehicle starts.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use ardrone_link::health::SocketHealth;
 use ardrone_link::{DroneAddress, WAKE_UP};
+use mission_agent::Misunderstood;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::set_socket_recv_buffer_size;
 
@@ -34,7 +35,7 @@ impl fmt::Display for Port {
     }
 }
 
-/// A local network problem. The flight goes on.
+/// A problem of the network. The flight goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trouble {
     /// The system refused a datagram.
@@ -48,6 +49,8 @@ pub enum Trouble {
     },
     /// More datagrams arrive from the drone's address than a tick reads.
     Flood,
+    /// The agent of another vehicle has said what this one does not understand.
+    Misunderstood(Misunderstood),
 }
 
 impl fmt::Display for Trouble {
@@ -58,6 +61,9 @@ impl fmt::Display for Trouble {
                 write!(f, "the system refuses {port}: {error}; retrying")
             }
             Self::Flood => f.write_str("navdata arrive faster than they can be processed"),
+            Self::Misunderstood(problem) => {
+                write!(f, "the agent of another vehicle is not understood: {problem}")
+            }
         }
     }
 }

@@ -17,6 +17,7 @@ mod operators;
 mod orders;
 mod real_time;
 mod room;
+mod said;
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
@@ -36,6 +37,7 @@ use self::orders::Orders;
 pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
 pub use self::room::Seat;
+use self::said::SaidLast;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
 use crate::recording::Recorder;
@@ -48,6 +50,7 @@ use autopilot::vehicle::{
     CannotFly, FlightReport, Input, Operator, OperatorOrder, Output, Telemetry, Transmit, Vehicle,
     VehicleConfig, VehicleName,
 };
+use mission_agent::{MissionAgent, Said};
 
 /// A message of a flight in progress.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,8 +70,17 @@ pub enum Content {
     /// What the vehicle tells, and the timing of the ticks. The end of a flight with which the program exits is not among
     /// it: it is returned by [`Flight::finish`].
     Telemetry(Duration, Telemetry, TickHealth),
-    /// A local network problem; the flight goes on.
+    /// A problem of the network; the flight goes on.
     Trouble(Duration, Trouble),
+    /// The vehicle's agent says something to that of another one.
+    Said {
+        /// When.
+        at: Duration,
+        /// To whom, and what.
+        said: Said,
+        /// It has said the same, with other numbers perhaps, shortly before.
+        again: bool,
+    },
 }
 
 /// Statistics of the local end of the link.
@@ -138,6 +150,8 @@ pub enum FlightError {
 pub struct Beside {
     /// Records it.
     pub recorder: Option<Recorder>,
+    /// Gives its orders, if it has no plan.
+    pub agent: Option<MissionAgent>,
     /// Its place among other vehicles.
     pub seat: Option<Seat>,
 }
@@ -181,8 +195,12 @@ impl Flight {
         drone: &DroneAddress,
         beside: Beside,
     ) -> Result<Self, FlightError> {
-        let Beside { recorder, seat } = beside;
-        let stay = if plan.is_some() { Stay::UntilFlown } else { Stay::UntilLeft };
+        let Beside { recorder, seat, agent } = beside;
+        let stay = match (&plan, &agent) {
+            (Some(_), _) => Stay::UntilFlown,
+            (None, Some(_)) => Stay::UntilOver,
+            (None, None) => Stay::UntilLeft,
+        };
         let vehicle = match plan {
             Some(plan) => Vehicle::flying(plan, config)?,
             None => Vehicle::new(config)?,
@@ -193,7 +211,8 @@ impl Flight {
         let control_port = ControlPort::read(runtime, SocketAddr::new(address, drone.control_port));
         let (sender, messages) = bounded(MESSAGES);
         let surroundings = RealTime::new(link, orders, control_port, seat);
-        let tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
+        let mut tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
+        tick.driver.agent = agent;
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
             .spawn(move || tick.run(|_| {}))
@@ -264,6 +283,8 @@ enum Stay {
     UntilFlown,
     /// After a request to exit, once the drone is down.
     UntilLeft,
+    /// Likewise, or when the agent wants nothing more.
+    UntilOver,
 }
 
 struct TickLoop {
@@ -282,6 +303,10 @@ struct Tee {
     messages: Sender<Message>,
     dropped_messages: u64,
     tells_end: bool,
+    /// It has been told that a line of another agent was not understood.
+    misunderstood: bool,
+    /// What its agent has said.
+    said: SaidLast,
     /// Timing of the ticks since the last status.
     health: TickHealth,
 }
@@ -324,6 +349,16 @@ impl Tee {
                     self.health.lateness = Duration::ZERO;
                 }
             }
+            Passed::Said(said) => {
+                let again = self.said.is_said_again(at, said);
+                self.send(Content::Said { at, said, again });
+            }
+            Passed::Misunderstood(problem) => {
+                // Once: who does not understand one line does not understand the next one either.
+                if !std::mem::replace(&mut self.misunderstood, true) {
+                    self.warn(at, Trouble::Misunderstood(problem));
+                }
+            }
             Passed::Input(..) | Passed::Sent { .. } => {}
         }
     }
@@ -364,6 +399,8 @@ impl TickLoop {
             messages,
             dropped_messages: 0,
             tells_end: stay == Stay::UntilLeft,
+            misunderstood: false,
+            said: SaidLast::default(),
             health: TickHealth::default(),
         };
         Self { driver: Driver::over(vehicle, surroundings), stay, tee }
@@ -380,7 +417,7 @@ impl TickLoop {
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(after)));
         let end = flown.map_err(|_| FlightError::Panicked);
         let down = match &end {
-            Ok(_) if self.stay == Stay::UntilLeft => self.driver.vehicle.is_at_rest(),
+            Ok(_) if self.stay != Stay::UntilFlown => self.driver.vehicle.is_at_rest(),
             Ok(outcome) => {
                 matches!(
                     outcome,
@@ -437,8 +474,14 @@ impl TickLoop {
         match self.stay {
             Stay::UntilFlown => outcome.cloned(),
             Stay::UntilLeft if stops == 0 => None,
+            Stay::UntilOver if stops == 0 => {
+                let agent = self.driver.agent.as_ref();
+                let is_over = agent.is_some_and(|agent| agent.is_over(&self.driver.vehicle));
+                // One that has not flown had nothing to fly.
+                is_over.then(|| outcome.cloned().unwrap_or(Outcome::Completed))
+            }
             // The landing of a lost drone is never confirmed.
-            Stay::UntilLeft => {
+            Stay::UntilLeft | Stay::UntilOver => {
                 let may_leave = self.driver.vehicle.is_at_rest() || outcome.is_some();
                 let end = if outcome.is_some() { Outcome::Interrupted } else { Outcome::CalledOff };
                 may_leave.then_some(end)

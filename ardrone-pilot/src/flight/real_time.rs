@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Stage, Transmit};
+use mission_agent::{Line, Said};
 
 use super::LinkSummary;
 use super::control_port::ControlPort;
@@ -226,5 +227,15 @@ impl Surroundings for RealTime {
             Transmit::WakeUp => self.link.wake_up(now),
         }
         self.done(Stage::Send);
+    }
+
+    fn hear(&mut self) -> Option<Line> {
+        self.seat.as_ref()?.next_line()
+    }
+
+    fn say(&mut self, said: Said) {
+        if let Some(seat) = &self.seat {
+            seat.say(said);
+        }
     }
 }

@@ -6,6 +6,12 @@ use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use autopilot::separation::{Neighbour, Presence};
+use autopilot::vehicle::VehicleName;
+use crossbeam_channel::{Receiver, Sender, bounded};
+use mission_agent::{Line, Said};
+
+/// Lines to an agent that may wait for its next tick.
+const LINES: usize = 64;
 
 /// What one vehicle has told.
 #[derive(Debug, Clone, Copy)]
@@ -24,13 +30,40 @@ pub struct Seat {
     own: usize,
     /// When each was where it was last heard to be.
     heard: Vec<Option<Instant>>,
+    /// What is said to its agent.
+    mail: Receiver<Line>,
+    /// Where the agents of all are reached.
+    boxes: Arc<[(VehicleName, Sender<Line>)]>,
 }
 
 impl Seat {
     /// One for each vehicle of a room.
-    pub fn in_one_room(count: usize) -> impl Iterator<Item = Self> {
+    pub fn in_one_room(names: impl IntoIterator<Item = VehicleName>) -> impl Iterator<Item = Self> {
+        let reached = names.into_iter().map(|name| {
+            let (sender, mail) = bounded(LINES);
+            ((name, sender), mail)
+        });
+        let (boxes, mails): (Vec<_>, Vec<_>) = reached.unzip();
+        let count = boxes.len();
         let room: Arc<[_]> = (0..count).map(|_| Mutex::default()).collect();
-        (0..count).map(move |own| Self { room: Arc::clone(&room), own, heard: vec![None; count] })
+        let boxes: Arc<[_]> = boxes.into();
+        mails.into_iter().enumerate().map(move |(own, mail)| {
+            let (room, boxes) = (Arc::clone(&room), Arc::clone(&boxes));
+            Self { room, own, heard: vec![None; count], mail, boxes }
+        })
+    }
+
+    /// The agent says something to that of another vehicle. What does not fit is lost, as on any network; and what is said to
+    /// one that is not there.
+    pub(super) fn say(&self, Said { to, line }: Said) {
+        if let Some((_, sender)) = self.boxes.iter().find(|(name, _)| name.as_str() == to) {
+            _ = sender.try_send(line);
+        }
+    }
+
+    /// Something that was said to the agent.
+    pub(super) fn next_line(&self) -> Option<Line> {
+        self.mail.try_recv().ok()
     }
 
     /// Tells the others; times count from `start`.
@@ -88,6 +121,24 @@ mod tests {
 
     const MS: Duration = Duration::from_millis(1);
 
+    fn in_one_room(count: usize) -> Vec<Seat> {
+        let names = ["a", "b", "c"].map(|name| name.parse().unwrap());
+        Seat::in_one_room(names.into_iter().take(count)).collect()
+    }
+
+    #[test]
+    fn what_is_said_is_heard_by_whom_it_was_said_to_and_no_more_is_kept_than_fits() {
+        let seats = in_one_room(3);
+        let line = Line::from("0123456789abcdef a tell low").unwrap();
+        for _ in 0..LINES + 5 {
+            seats[0].say(Said { to: "c", line });
+        }
+        seats[0].say(Said { to: "nobody", line });
+        assert_eq!((seats[0].next_line(), seats[1].next_line()), (None, None));
+        let heard = std::iter::from_fn(|| seats[2].next_line()).collect::<Vec<_>>();
+        assert_eq!(heard, vec![line; LINES]);
+    }
+
     fn at(system: u8, ms: u32, presence: Presence) -> Neighbour {
         let (place_m, velocity_m_s) = (Vector2::new(1.0, 2.0), Vector2::new(0.5, 0.0));
         Neighbour {
@@ -104,7 +155,7 @@ mod tests {
 
     #[test]
     fn each_hears_the_others_once_by_its_own_clock() {
-        let mut seats: Vec<Seat> = Seat::in_one_room(3).collect();
+        let mut seats: Vec<Seat> = in_one_room(3);
         let [first, later] = [Instant::now(), Instant::now() + 500 * MS];
         seats[0].tell(first, at(1, 700, Presence::Flies));
         seats[1].tell(later, at(2, 300, Presence::Flies));
@@ -123,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_place_that_is_in_use_is_waited_for_by_who_leaves_it_and_passed_over_by_ticks() {
-        let mut seats: Vec<Seat> = Seat::in_one_room(2).collect();
+        let mut seats: Vec<Seat> = in_one_room(2);
         let start = Instant::now();
         seats[0].tell(start, at(1, 10, Presence::Flies));
         let room = Arc::clone(&seats[0].room);
@@ -141,7 +192,7 @@ mod tests {
 
     #[test]
     fn who_has_left_its_drone_on_the_ground_is_still_heard() {
-        let mut seats: Vec<Seat> = Seat::in_one_room(2).collect();
+        let mut seats: Vec<Seat> = in_one_room(2);
         let start = Instant::now();
         seats[0].park();
         assert_eq!(seats[1].hear(start, MS).count(), 0, "it was never there");

@@ -40,6 +40,15 @@ pub struct Tick {
     pub datagram: String,
 }
 
+/// What the vehicle's agent said to that of another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct AgentMessage<'a> {
+    /// To whom: the name of its vehicle.
+    pub(super) to: &'a str,
+    /// Version of the messages, sender, and what was said.
+    pub(super) line: &'a str,
+}
+
 /// The mission from a moment on.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Mission {

@@ -33,6 +33,7 @@ use autopilot::separation;
 use autopilot::vehicle::{
     Decision, Input, Operator, OperatorOrder, Telemetry, Transmit, VehicleName,
 };
+use mission_agent::Said;
 use time::UtcDateTime;
 
 use crate::drive::Passed;
@@ -109,6 +110,13 @@ pub enum Record {
         /// What.
         telemetry: Telemetry,
     },
+    /// What the vehicle's agent said to that of another one.
+    Said {
+        /// Its time.
+        at: Duration,
+        /// To whom, and what.
+        said: Said,
+    },
     /// Another message for people.
     Note {
         /// Its time.
@@ -175,8 +183,10 @@ impl Record {
                 telemetry
                 @ (Telemetry::Event(_) | Telemetry::Mission { .. } | Telemetry::Ended(..)),
             ) => Self::Telemetry { at, telemetry: telemetry.clone() },
+            Passed::Said(said) => Self::Said { at, said: *said },
             // The rest can be seen in the ticks.
-            Passed::Input(Input::Tick | Input::Part, _)
+            Passed::Misunderstood(_)
+            | Passed::Input(Input::Tick | Input::Part, _)
             | Passed::Sent { transmit: Transmit::WakeUp, .. }
             | Passed::Told(_) => return None,
         })

@@ -32,6 +32,11 @@ pub(super) const NEIGHBOURS: Topic = Topic {
     schema: "ardrone_pilot.Neighbour",
     text: include_str!("schemas/neighbour.json"),
 };
+pub(super) const MESSAGES: Topic = Topic {
+    name: "/messages",
+    schema: "ardrone_pilot.AgentMessage",
+    text: include_str!("schemas/agent_message.json"),
+};
 pub(super) const MISSION: Topic = Topic {
     name: "/mission",
     schema: "ardrone_pilot.Mission",
@@ -54,5 +59,17 @@ pub(super) const TAGS: Topic =
 /// Pictures of the drone's camera: protobuf, unlike the others.
 pub(super) const VIDEO: &str = "/video";
 
-pub(super) const ALL: [Topic; 11] =
-    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, NEIGHBOURS, MISSION, LOG, POSE, TARGET, TAGS];
+pub(super) const ALL: [Topic; 12] = [
+    TICK,
+    NAVDATA,
+    RAW_NAVDATA,
+    CONTROL,
+    ORDERS,
+    NEIGHBOURS,
+    MESSAGES,
+    MISSION,
+    LOG,
+    POSE,
+    TARGET,
+    TAGS,
+];

@@ -18,7 +18,7 @@ use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
-use super::messages::{Bytes, DecodedNavdata, Mission, Place, Tags, Tick};
+use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Place, Tags, Tick};
 use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{
@@ -141,6 +141,10 @@ impl<W: Write + Seek> LogWriter<W> {
                 self.message(topic::NEIGHBOURS, *at, &Neighbour::from(neighbour))
             }
             Record::Telemetry { at, telemetry } => self.telemetry(*at, telemetry),
+            Record::Said { at, said } => {
+                let said = AgentMessage { to: said.to, line: &said.line };
+                self.message(topic::MESSAGES, *at, &said)
+            }
             Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
             Record::Picture { at, picture } => self.picture(*at, picture),
             Record::Tick { decision, timing, datagram } => {

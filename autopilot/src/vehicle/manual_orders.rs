@@ -26,7 +26,7 @@ impl Vehicle {
     pub(super) fn steer(&mut self, now: Duration, by: Operator, sticks: Sticks) {
         let lasts = match by.station {
             Station::Browser => PAGE_STICK_TIME,
-            Station::Terminal | Station::Program | Station::Mavlink => STICK_TIME,
+            Station::Terminal | Station::Program | Station::Mavlink | Station::Agent => STICK_TIME,
         };
         let mode = Mode::Steered { sticks, until: now + lasts };
         match self.life.flying_mut() {

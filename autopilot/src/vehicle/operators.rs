@@ -30,11 +30,14 @@ pub enum Station {
     Browser,
     /// A ground station that speaks `MAVLink`.
     Mavlink,
+    /// The agent that has the place of a flight plan. It yields to every person and program.
+    Agent,
 }
 
 impl Station {
     /// All stations.
-    pub const ALL: [Self; 4] = [Self::Terminal, Self::Program, Self::Browser, Self::Mavlink];
+    pub const ALL: [Self; 5] =
+        [Self::Terminal, Self::Program, Self::Browser, Self::Mavlink, Self::Agent];
 
     /// Its name in logs and messages.
     pub fn name(self) -> &'static str {
@@ -43,6 +46,7 @@ impl Station {
             Self::Program => "program",
             Self::Browser => "browser",
             Self::Mavlink => "mavlink",
+            Self::Agent => "agent",
         }
     }
 }
@@ -61,15 +65,26 @@ impl Operator {
     /// The program connected to standard input.
     pub const PROGRAM: Self = Self { station: Station::Program, number: 0, local: true };
 
+    /// The agent that has the place of a flight plan.
+    pub const AGENT: Self = Self { station: Station::Agent, number: 0, local: true };
+
     /// Whether this operator may take the controls from others. `MAVLink` has no login: its stations get them
     /// only if they are free.
     fn takes_controls(self) -> bool {
-        self.local && self.station != Station::Mavlink
+        self.local && !matches!(self.station, Station::Mavlink | Station::Agent)
+    }
+
+    /// Whether everybody else may take the controls from this operator.
+    pub(super) fn yields(self) -> bool {
+        self.station == Station::Agent
     }
 }
 
 impl fmt::Display for Operator {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.station == Station::Agent {
+            return f.write_str("the agent");
+        }
         f.write_str(if self.local { "the local " } else { "the remote " })?;
         f.write_str(self.station.name())?;
         match self.number {
@@ -133,19 +148,22 @@ impl Controls {
     /// and moves them from a remote operator, or one who cannot take them, to a local one, whom that one must not
     /// overrule afterwards.
     pub(super) fn admit_any(&mut self, by: Operator) {
-        if self.holder.is_none_or(|holder| by.takes_controls() && !holder.takes_controls()) {
+        let moves = |holder: Operator| {
+            by.takes_controls() && !holder.takes_controls() || holder.yields() && !by.yields()
+        };
+        if self.holder.is_none_or(moves) {
             self.holder = Some(by);
         }
     }
 
     /// Admits an order that needs the controls. A local operator takes them from a remote one; a remote
-    /// operator gets them only if they are free.
+    /// operator gets them only if they are free or an agent has them.
     ///
     /// # Errors
     /// The operator who has the controls.
     pub(super) fn admit(&mut self, by: Operator) -> Result<(), Operator> {
         match self.holder {
-            Some(holder) if holder != by && !by.takes_controls() => Err(holder),
+            Some(holder) if holder != by && !by.takes_controls() && !holder.yields() => Err(holder),
             _ => {
                 self.holder = Some(by);
                 Ok(())

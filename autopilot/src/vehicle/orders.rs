@@ -232,7 +232,7 @@ impl Vehicle {
 
     fn show_camera(&mut self, now: Duration, by: Operator, camera: Camera) -> Result<(), Refused> {
         match self.controls.holder() {
-            Some(holder) if holder != by && !by.local => {
+            Some(holder) if holder != by && !by.local && !holder.yields() => {
                 return Err(Refused::ControlsHeld(holder));
             }
             _ if self.is_foreign() => return Err(Refused::FlownByAnother),

@@ -99,6 +99,11 @@ impl View {
     pub(super) fn take_in(&mut self, message: &Message) -> Option<String> {
         let (line, warns) = match &message.content {
             Content::Realtime(realtime) => (printable(&realtime.to_string()).into_owned(), false),
+            Content::Said { again: true, .. } => return None,
+            Content::Said { at, said, .. } => {
+                let text = printable(said.text());
+                (format!("{:6.1} s to {}: {text}", at.as_secs_f64(), said.to), false)
+            }
             Content::Trouble(at, trouble) => {
                 (format!("{:6.1} s {trouble}", at.as_secs_f64()), true)
             }

@@ -1,0 +1,196 @@
+//! What an agent senses in a step, and what it orders and says: the functions that `agents/boundary.conf` declares.
+
+use std::fmt::{self, Write as _};
+
+use arrayvec::{ArrayString, ArrayVec};
+use kinematics::Pose;
+
+/// Longest line between agents, in bytes.
+pub const MAX_LINE: usize = 256;
+
+/// Most lines that an agent says in a step.
+const MAX_SAID: usize = 64;
+
+/// A message between agents as text: `VERSION SENDER MESSAGE`.
+pub type Line = ArrayString<MAX_LINE>;
+
+/// What an agent says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Said {
+    /// To which peer: the name of its vehicle.
+    pub to: &'static str,
+    /// What.
+    pub line: Line,
+}
+
+impl Said {
+    /// What it says, without version and sender.
+    pub fn text(&self) -> &str {
+        self.line.splitn(3, ' ').nth(2).unwrap_or_default()
+    }
+}
+
+/// What an agent wants of its pilot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Wanted {
+    Keep,
+    TakeOff,
+    Hover,
+    FlyTo(Pose),
+    Follow(Pose),
+    Land { on_tag: bool },
+    Finish,
+}
+
+/// What an agent senses.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sensed {
+    pub(crate) now_ms: i64,
+    pub(crate) pose: Option<Pose>,
+    pub(crate) battery_percent: Option<u32>,
+    pub(crate) on_ground: bool,
+    pub(crate) flying: bool,
+    pub(crate) obeyed: bool,
+    pub(crate) tags_in_use: bool,
+}
+
+/// One step of an agent: its senses, its order, and what it says.
+#[derive(Debug)]
+pub(crate) struct Step<'a> {
+    pub(crate) sensed: Sensed,
+    pub(crate) places: &'a [Pose],
+    /// The number of the agent among its peers.
+    pub(crate) me: u8,
+    /// The last order of the step; an agent without one keeps to what goes on.
+    pub(crate) wanted: Wanted,
+    pub(crate) said: ArrayVec<Said, MAX_SAID>,
+    /// Lines for which there was no room.
+    pub(crate) unsaid: u64,
+    /// The plan that was chosen first.
+    pub(crate) plan: Option<u32>,
+}
+
+impl<'a> Step<'a> {
+    pub(crate) fn new(sensed: Sensed, places: &'a [Pose], me: u8) -> Self {
+        let (wanted, said) = (Wanted::Keep, ArrayVec::new());
+        Self { sensed, places, me, wanted, said, unsaid: 0, plan: None }
+    }
+
+    /// An agent says something to a peer.
+    pub(crate) fn say(&mut self, to: &'static str, envelope: &dyn fmt::Display) {
+        let mut line = Line::new();
+        let fits = write!(line, "{envelope}").is_ok();
+        if !fits || self.said.try_push(Said { to, line }).is_err() {
+            self.unsaid += 1;
+        }
+    }
+
+    fn place(&self, number: i32) -> Pose {
+        let index = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
+        index.and_then(|index| self.places.get(index)).copied().unwrap_or_default()
+    }
+}
+
+fn pose(x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) -> Pose {
+    Pose { x_m, y_m, z_m, yaw_deg }
+}
+
+/// Under the names that the bindings have for them.
+impl Step<'_> {
+    pub(crate) fn keep(&mut self) {
+        self.wanted = Wanted::Keep;
+    }
+
+    pub(crate) fn take_off(&mut self) {
+        self.wanted = Wanted::TakeOff;
+    }
+
+    pub(crate) fn hover(&mut self) {
+        self.wanted = Wanted::Hover;
+    }
+
+    pub(crate) fn fly_to(&mut self, x_m: f64, y_m: f64, height_m: f64, yaw_deg: f64) {
+        self.wanted = Wanted::FlyTo(pose(x_m, y_m, height_m, yaw_deg));
+    }
+
+    pub(crate) fn fly_through(&mut self, x_m: f64, y_m: f64, height_m: f64, yaw_deg: f64) {
+        self.fly_to(x_m, y_m, height_m, yaw_deg);
+    }
+
+    pub(crate) fn follow(&mut self, x_m: f64, y_m: f64, height_m: f64, yaw_deg: f64) {
+        self.wanted = Wanted::Follow(pose(x_m, y_m, height_m, yaw_deg));
+    }
+
+    pub(crate) fn land(&mut self) {
+        self.wanted = Wanted::Land { on_tag: false };
+    }
+
+    pub(crate) fn land_on_tag(&mut self) {
+        self.wanted = Wanted::Land { on_tag: true };
+    }
+
+    pub(crate) fn finish(&mut self) {
+        self.wanted = Wanted::Finish;
+    }
+
+    pub(crate) fn now(&mut self) -> i64 {
+        self.sensed.now_ms
+    }
+
+    pub(crate) fn on_ground(&mut self) -> bool {
+        self.sensed.on_ground
+    }
+
+    pub(crate) fn flying(&mut self) -> bool {
+        self.sensed.flying
+    }
+
+    pub(crate) fn obeyed(&mut self) -> bool {
+        self.sensed.obeyed
+    }
+
+    pub(crate) fn tags_in_use(&mut self) -> bool {
+        self.sensed.tags_in_use
+    }
+
+    pub(crate) fn near(&mut self, x_m: f64, y_m: f64, height_m: f64, within_m: f64) -> bool {
+        self.sensed.pose.is_some_and(|pose| {
+            let away = [pose.x_m - x_m, pose.y_m - y_m, pose.z_m - height_m];
+            away.iter().map(|away| away * away).sum::<f64>() <= within_m * within_m
+        })
+    }
+
+    pub(crate) fn places(&mut self) -> i32 {
+        i32::try_from(self.places.len()).unwrap_or(i32::MAX)
+    }
+
+    pub(crate) fn place_x(&mut self, number: i32) -> f64 {
+        self.place(number).x_m
+    }
+
+    pub(crate) fn place_y(&mut self, number: i32) -> f64 {
+        self.place(number).y_m
+    }
+
+    pub(crate) fn place_height(&mut self, number: i32) -> f64 {
+        self.place(number).z_m
+    }
+
+    pub(crate) fn place_yaw(&mut self, number: i32) -> f64 {
+        self.place(number).yaw_deg
+    }
+
+    pub(crate) fn trace_plan(&mut self, plan: u32) {
+        self.plan.get_or_insert(plan);
+    }
+
+    /// The belief `charge`.
+    pub(crate) fn charge(&self) -> Option<(i64,)> {
+        self.sensed.battery_percent.map(|percent| (percent.into(),))
+    }
+
+    /// The belief `position`.
+    pub(crate) fn position(&self) -> Option<(f64, f64, f64, f64)> {
+        self.sensed.pose.map(|Pose { x_m, y_m, z_m, yaw_deg }| (x_m, y_m, z_m, yaw_deg))
+    }
+}

@@ -1,0 +1,245 @@
+//! A mission agent and its vehicle: what it senses of it, and its wishes as orders.
+
+use std::time::Duration;
+
+use arrayvec::ArrayVec;
+use autopilot::Vehicle;
+use autopilot::outcome::Outcome;
+use autopilot::plan::Commands;
+use autopilot::vehicle::{
+    Heading, Horizontal, ManualControl, Operator, OperatorOrder, Phase, Place, Refused, Setpoint,
+    Status, Vertical,
+};
+use kinematics::Pose;
+
+use crate::boundary::{Said, Sensed, Step, Wanted};
+use crate::built_in::{self, NoAgent, Translated};
+
+/// After an order was refused, it is not given again for so long.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Why a line is not understood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Misunderstood {
+    /// It is no message of this agent.
+    #[error("it is no message")]
+    NoMessage,
+    /// Its sender was translated with other messages.
+    #[error("it is of version {theirs:016x} of the messages, and not of {ours:016x}")]
+    OtherVersion {
+        /// The agent's own.
+        ours: u64,
+        /// The sender's.
+        theirs: u64,
+    },
+    /// It is from the agent itself.
+    #[error("it is from the agent itself")]
+    Oneself,
+    /// Its sender may not say that, or there is no room for more.
+    #[error("it is refused")]
+    Refused,
+    /// The agent talks with nobody.
+    #[error("the agent talks with nobody")]
+    DoesNotTalk,
+}
+
+/// An agent that has the place of a flight plan.
+#[derive(Debug)]
+pub struct MissionAgent {
+    agent: Box<dyn Translated>,
+    name: String,
+    places: Vec<Pose>,
+    take_off: Commands,
+    land: Commands,
+    land_on_tag: Commands,
+    uses_tags: bool,
+    /// What goes on by its order.
+    ordered: Option<Wanted>,
+    /// No order is given before.
+    waits_until: Duration,
+    /// It wants nothing more.
+    is_finished: bool,
+    said: ArrayVec<Said, 64>,
+    unsaid: u64,
+    plan: Option<(u32, &'static str)>,
+}
+
+impl MissionAgent {
+    /// A new agent of a vehicle, by the name under which it is built in; `places` are those of which it may ask.
+    ///
+    /// # Errors
+    /// [`NoAgent`] if there is none, or the vehicle is none of its peers.
+    pub fn new(
+        name: &str,
+        vehicle: &str,
+        places: Vec<Pose>,
+        uses_tags: bool,
+    ) -> Result<Self, NoAgent> {
+        let commands = |text: &str| {
+            Commands::parse("agent", text).expect("these are commands of the plan language")
+        };
+        Ok(Self {
+            agent: built_in::new(name, vehicle)?,
+            name: name.to_owned(),
+            places,
+            take_off: commands("clearCommands\ntakeoff"),
+            land: commands("clearCommands\nland"),
+            land_on_tag: commands("clearCommands\nlandOnTag"),
+            uses_tags,
+            ordered: None,
+            waits_until: Duration::ZERO,
+            is_finished: false,
+            said: ArrayVec::new(),
+            unsaid: 0,
+            plan: None,
+        })
+    }
+
+    /// The name under which it is built in.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The names of the vehicles with which it talks, its own among them.
+    pub fn peers(&self) -> &'static [&'static str] {
+        self.agent.peers()
+    }
+
+    /// Line in its source and trigger of the plan that it chose in the last step.
+    pub fn plan(&self) -> Option<(u32, &'static str)> {
+        self.plan
+    }
+
+    /// Lines that it could not say, because there was no room for them.
+    pub fn unsaid(&self) -> u64 {
+        self.unsaid
+    }
+
+    /// Whether its mission is over: nothing flies any more, and either it is finished, or its flight ended otherwise than by its
+    /// own orders. It does not fly again then, whatever it wants.
+    pub fn is_over(&self, vehicle: &Vehicle) -> bool {
+        vehicle.is_at_rest() && (self.is_finished || is_lost(vehicle))
+    }
+
+    /// Takes what it has said.
+    pub fn take_said(&mut self) -> impl Iterator<Item = Said> + use<> {
+        std::mem::take(&mut self.said).into_iter()
+    }
+
+    /// A peer says something.
+    ///
+    /// # Errors
+    /// [`Misunderstood`]. Nothing has changed then.
+    pub fn hear(&mut self, now: Duration, line: &str) -> Result<(), Misunderstood> {
+        let sensed = Sensed { now_ms: milliseconds(now), ..Sensed::default() };
+        self.agent.hear(&mut Step::new(sensed, &self.places, self.agent.me()), line)
+    }
+
+    /// One step; returns what it orders. The orders are given one after the other, unless one is [`refused`](Self::refused).
+    pub fn step(&mut self, now: Duration, vehicle: &Vehicle) -> ArrayVec<OperatorOrder, 2> {
+        let status = vehicle.status(now);
+        let obeyed =
+            status.controls.is_none_or(|holder| holder == Operator::AGENT) && !is_lost(vehicle);
+        let flying = status.phase == Phase::Flying
+            && status.airborne
+            && (status.step.is_none() || status.manual.is_some());
+        let sensed = Sensed {
+            now_ms: milliseconds(now),
+            pose: status.pose,
+            battery_percent: status.battery_percent,
+            on_ground: !status.airborne,
+            flying,
+            obeyed,
+            tags_in_use: self.uses_tags,
+        };
+        let mut step = Step::new(sensed, &self.places, self.agent.me());
+        self.agent.step(&mut step);
+        let Step { wanted, said, unsaid, plan, .. } = step;
+        for line in said {
+            self.unsaid += u64::from(self.said.try_push(line).is_err());
+        }
+        self.unsaid += unsaid;
+        self.plan = plan.and_then(|plan| self.agent.plan(plan));
+        self.is_finished |= wanted == Wanted::Finish;
+        if !obeyed || now < self.waits_until {
+            // What somebody else has ordered meanwhile is not what this agent has.
+            self.ordered = self.ordered.filter(|_| obeyed);
+            return ArrayVec::new();
+        }
+        self.orders(wanted, &status, vehicle, flying)
+    }
+
+    /// An order was refused: it is given again, but not at once.
+    pub fn refused(&mut self, now: Duration, _: &Refused) {
+        self.ordered = None;
+        self.waits_until = now + PATIENCE;
+    }
+
+    fn orders(
+        &mut self,
+        wanted: Wanted,
+        status: &Status,
+        vehicle: &Vehicle,
+        flying: bool,
+    ) -> ArrayVec<OperatorOrder, 2> {
+        let mut orders = ArrayVec::new();
+        let is_new = self.ordered != Some(wanted);
+        match wanted {
+            Wanted::Keep | Wanted::Finish => return orders,
+            Wanted::TakeOff if vehicle.is_at_rest() && !status.airborne => {
+                orders.push(OperatorOrder::Append(self.take_off.clone()));
+                orders.push(OperatorOrder::Start { when_ready: true });
+            }
+            Wanted::Hover if flying && is_new => {
+                // After a take-off it holds by itself.
+                if status.manual.is_some() {
+                    orders.push(OperatorOrder::Hold);
+                }
+            }
+            Wanted::FlyTo(place) if flying && is_new => {
+                orders.push(OperatorOrder::GoTo(place_of(place)))
+            }
+            Wanted::Follow(place) if flying => {
+                let follows = status.manual == Some(ManualControl::Setpoints)
+                    && matches!(self.ordered, Some(Wanted::Follow(_)));
+                let setpoint = setpoint(place);
+                orders.push(if follows {
+                    OperatorOrder::Setpoint(setpoint)
+                } else {
+                    OperatorOrder::Follow(setpoint)
+                });
+            }
+            Wanted::Land { on_tag } if flying && is_new => {
+                let land = if on_tag { &self.land_on_tag } else { &self.land };
+                orders.push(OperatorOrder::Append(land.clone()));
+                if status.mission_waits {
+                    orders.push(OperatorOrder::Resume);
+                }
+            }
+            _ => return orders,
+        }
+        self.ordered = Some(wanted);
+        orders
+    }
+}
+
+/// Whether the last flight has ended otherwise than by its mission.
+fn is_lost(vehicle: &Vehicle) -> bool {
+    vehicle.outcome().is_some_and(|outcome| *outcome != Outcome::Completed)
+}
+
+fn milliseconds(now: Duration) -> i64 {
+    i64::try_from(now.as_millis()).unwrap_or(i64::MAX)
+}
+
+fn place_of(Pose { x_m, y_m, z_m, yaw_deg }: Pose) -> Place {
+    Place { x_m: Some(x_m), y_m: Some(y_m), height_m: Some(z_m), yaw_deg: Some(yaw_deg) }
+}
+
+fn setpoint(Pose { x_m, y_m, z_m, yaw_deg }: Pose) -> Setpoint {
+    Setpoint {
+        horizontal: Horizontal::Place { x_m, y_m },
+        vertical: Vertical::Height(z_m),
+        heading: Heading::Yaw(yaw_deg),
+    }
+}
