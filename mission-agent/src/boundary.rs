@@ -194,3 +194,42 @@ impl Step<'_> {
         self.sensed.pose.map(|Pose { x_m, y_m, z_m, yaw_deg }| (x_m, y_m, z_m, yaw_deg))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACES: [Pose; 1] = [Pose { x_m: 1.0, y_m: 2.0, z_m: 1.5, yaw_deg: 30.0 }];
+
+    #[test]
+    fn places_are_counted_from_one_and_others_are_at_the_origin() {
+        let mut step = Step::new(Sensed::default(), &PLACES, 0);
+        assert_eq!((step.places(), step.place_x(1), step.place_height(1)), (1, 1.0, 1.5));
+        for number in [0, 2, -1, i32::MIN, i32::MAX] {
+            assert_eq!((step.place_x(number), step.place_yaw(number)), (0.0, 0.0), "{number}");
+        }
+    }
+
+    #[test]
+    fn near_is_within_a_distance_and_nowhere_for_a_drone_without_a_place() {
+        let pose = Some(Pose { x_m: 1.0, y_m: 2.0, z_m: 1.0, yaw_deg: 0.0 });
+        let mut step = Step::new(Sensed { pose, ..Sensed::default() }, &PLACES, 0);
+        assert!(step.near(1.3, 2.0, 1.4, 0.51) && !step.near(1.3, 2.0, 1.4, 0.49));
+        assert!(!step.near(f64::NAN, 2.0, 1.0, 9.0));
+        assert!(!Step::new(Sensed::default(), &PLACES, 0).near(0.0, 0.0, 0.0, 9.0));
+    }
+
+    #[test]
+    fn what_does_not_fit_is_counted() {
+        let mut step = Step::new(Sensed::default(), &PLACES, 0);
+        step.say("b", &"x".repeat(MAX_LINE + 1));
+        assert_eq!((step.said.len(), step.unsaid), (0, 1));
+        for _ in 0..=MAX_SAID {
+            step.say("b", &"0 a tell at(1.0, 2.0)");
+        }
+        assert_eq!(
+            (step.said.len(), step.unsaid, step.said[0].text()),
+            (MAX_SAID, 2, "tell at(1.0, 2.0)")
+        );
+    }
+}

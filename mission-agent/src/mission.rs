@@ -243,3 +243,49 @@ fn setpoint(Pose { x_m, y_m, z_m, yaw_deg }: Pose) -> Setpoint {
         heading: Heading::Yaw(yaw_deg),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use autopilot::vehicle::VehicleConfig;
+
+    use super::*;
+
+    fn names_of(orders: &[OperatorOrder]) -> Vec<&'static str> {
+        orders.iter().map(OperatorOrder::name).collect()
+    }
+
+    #[test]
+    fn an_agent_is_one_of_its_peers() {
+        assert!(MissionAgent::new("keeper", "keeper", Vec::new(), false).is_ok());
+        let error = MissionAgent::new("keeper", "ada", Vec::new(), false).unwrap_err().to_string();
+        assert_eq!(error, "the agent `keeper` is one of keeper, left, right, and no `ada`");
+        let error = MissionAgent::new("nobody", "ada", Vec::new(), false).unwrap_err().to_string();
+        assert!(error.starts_with("no agent is called `nobody`: built in are "), "{error}");
+    }
+
+    #[test]
+    fn a_take_off_is_two_orders_and_not_repeated_at_once_if_refused() {
+        let mut agent = MissionAgent::new("traveller", "left", Vec::new(), false).unwrap();
+        let mut vehicle = Vehicle::new(&VehicleConfig::default()).unwrap();
+        let orders = agent.step(Duration::ZERO, &vehicle);
+        assert_eq!(names_of(&orders), ["append", "start"]);
+        agent.refused(Duration::ZERO, &Refused::NoMission);
+        assert!(agent.step(Duration::from_millis(990), &vehicle).is_empty());
+        let orders = agent.step(PATIENCE, &vehicle);
+        assert_eq!(names_of(&orders), ["append", "start"]);
+        for order in orders {
+            let order = autopilot::vehicle::Input::Order(Operator::AGENT, order);
+            assert_eq!(vehicle.handle(PATIENCE, order), Ok(()));
+        }
+        assert!(agent.step(PATIENCE, &vehicle).is_empty(), "it is about to fly");
+    }
+
+    #[test]
+    fn who_has_the_controls_is_not_disturbed() {
+        let mut agent = MissionAgent::new("traveller", "left", Vec::new(), false).unwrap();
+        let mut vehicle = Vehicle::new(&VehicleConfig::default()).unwrap();
+        let take = autopilot::vehicle::Input::Order(Operator::TERMINAL, OperatorOrder::Take);
+        assert_eq!(vehicle.handle(Duration::ZERO, take), Ok(()));
+        assert!(agent.step(Duration::ZERO, &vehicle).is_empty());
+    }
+}

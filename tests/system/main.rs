@@ -22,6 +22,7 @@ mod ground_station;
 mod keyboard;
 mod lateness;
 mod mavlink;
+mod mission_agents;
 mod operator;
 mod parting;
 mod planner;

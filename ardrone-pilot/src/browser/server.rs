@@ -86,7 +86,7 @@ macro_rules! script {
 }
 
 /// The page itself comes first.
-const ASSETS: [Asset; 14] = [
+const ASSETS: [Asset; 15] = [
     Asset { path: "/", kind: "text/html; charset=utf-8", text: include_str!("page/index.html") },
     Asset {
         path: "/page.css",
@@ -95,6 +95,7 @@ const ASSETS: [Asset; 14] = [
     },
     script!("page.js"),
     script!("fleet.js"),
+    script!("talk.js"),
     script!("history.js"),
     script!("heights.js"),
     script!("dangers.js"),

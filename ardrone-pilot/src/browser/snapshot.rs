@@ -117,13 +117,20 @@ impl Snapshot {
         object
     }
 
-    /// Another vehicle does this now.
+    /// Another vehicle does this now, or its agent says it.
     pub(super) fn take_in_other(&mut self, vehicle: VehicleName, seen: &Value) {
-        self.others.insert(vehicle, seen.clone());
+        if seen["type"] == "message" {
+            self.remember(seen);
+        } else {
+            self.others.insert(vehicle, seen.clone());
+        }
     }
 
-    /// What others see of this vehicle, after a message about it: nothing new but of a status, or its end.
+    /// What others see of this vehicle, after a message about it: nothing new but of a status, its end, or what its agent says.
     pub(super) fn as_other(&self, message: &Value) -> Option<Value> {
+        if message["type"] == "message" && message["again"] == false {
+            return Some(message.clone());
+        }
         let is_news = matches!(message["type"].as_str(), Some("status" | "end"));
         is_news.then(|| {
             let seen = |key: &str| self.status.get(key).cloned().unwrap_or(Value::Null);

@@ -238,9 +238,27 @@ mod tests {
     }
 
     #[test]
+    fn an_agent_yields_to_everybody_and_takes_from_nobody() {
+        for by in [Operator::TERMINAL, Operator::PROGRAM, PAGE, STATION] {
+            let mut controls = Controls::default();
+            assert_eq!(controls.admit(Operator::AGENT), Ok(()));
+            assert_eq!(controls.admit(by), Ok(()), "{by}");
+            assert_eq!(controls.admit(Operator::AGENT), Err(by));
+            controls.admit_any(Operator::AGENT);
+            assert_eq!(controls.holder(), Some(by));
+            controls.release(by);
+            assert_eq!(controls.admit(Operator::AGENT), Ok(()));
+            // A hold or a landing takes them, too: the agent must not overrule it.
+            controls.admit_any(by);
+            assert_eq!(controls.holder(), Some(by));
+        }
+    }
+
+    #[test]
     fn operators_have_names() {
         assert_eq!(Operator::TERMINAL.to_string(), "the local terminal");
         assert_eq!(PAGE.to_string(), "the remote browser 1");
+        assert_eq!(Operator::AGENT.to_string(), "the agent");
         let system_and_component = Operator { number: 0xffbe, ..STATION };
         assert_eq!(system_and_component.to_string(), "the remote mavlink 255.190");
         for station in Station::ALL {

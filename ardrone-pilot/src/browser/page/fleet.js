@@ -100,5 +100,5 @@ const fleet = (() => {
 
   $("landall").onclick = () => order({ order: "land_all" });
 
-  return { begin, take, drawList, drawOn, places };
+  return { begin, take, colour, drawList, drawOn, places };
 })();

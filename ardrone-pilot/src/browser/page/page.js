@@ -86,6 +86,9 @@ function take(message) {
     case "landed":
       addEvent(message);
       break;
+    case "message":
+      talk.add(message);
+      break;
     case "other":
       fleet.take(message);
       break;
@@ -136,12 +139,14 @@ function begin(message) {
     $("steps").append(item);
   });
   message.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
-  message.events.forEach(addEvent);
   if (message.status) take(message.status);
   trailOfFlight = 0;
   readiness = message.ready;
   if (message.end) finish(message.end);
   fleet.begin(message);
+  talk.begin(message.fleet);
+  // What was told before is shown, and not warned of again.
+  for (const event of message.events) event.type === "message" ? talk.add(event) : addEvent(event);
   plan.begin(message);
   // Somebody without a mission makes one first.
   if (!view) show(message.steps.length ? "fly" : "plan");
@@ -290,7 +295,7 @@ function drawButtons() {
   $("hold").disabled = !flying;
   // A delayed order to fly to a place must not be sent.
   $("fly").disabled = !flying || watching || !dangers.isCalm();
-  $("take").disabled = !live || !status || !(watching || status.controls === me);
+  $("take").disabled = !live || !status || !(watching || [me, "the agent"].includes(status.controls));
   $("take").textContent = status && status.controls === me ? "Release the controls" : "Take the controls";
   $("typed").disabled = !live || watching;
   $("resume").disabled = !flying || !status.mission_waits || watching;
@@ -324,7 +329,7 @@ function drawFacts() {
     $(id).classList.toggle("ill", ill);
   };
   const { pose, velocity_m_s: velocity, battery_percent: charge } = status;
-  put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? (status.manual && status.manual !== "hold" ? "by hand" : "holding") : status.phase);
+  put("phase", over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? (status.manual && status.manual !== "hold" ? (status.controls === "the agent" ? "by its agent" : "by hand") : "holding") : status.phase);
   $("phase").classList.toggle("alarm", Boolean(status.emergency));
   put("time", status.flight_time_s === null ? "–" : minutes(status.flight_time_s));
   put("step", status.step === null ? "–" : `${status.step + 1} of ${status.steps}`);

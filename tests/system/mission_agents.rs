@@ -1,0 +1,257 @@
+//! Agents that fly missions and talk: the examples in simulated time, who has the controls, and what is proved of them.
+
+use std::path::Path;
+use std::time::Duration;
+
+use ardrone_pilot::drive::{self, Driver, POLL, Passed, Simulated};
+use ardrone_pilot::fleet::{self, Fleet, Member, SimulatedFleet, SimulatedMember};
+use autopilot::Vehicle;
+use autopilot::outcome::Outcome;
+use autopilot::plan::ZOrigin;
+use autopilot::vehicle::{Input, Operator, OperatorOrder, Refused, Station, Telemetry};
+use mission_agent::{Line, Said};
+use nalgebra::Vector2;
+
+use super::processes::program;
+
+fn read(name: &str) -> Fleet {
+    Fleet::read(&Path::new("../fleets").join(name), ZOrigin::default()).unwrap()
+}
+
+fn named<'a>(fleet: &Fleet, flown: &'a SimulatedFleet, name: &str) -> &'a SimulatedMember {
+    let number = fleet.members.iter().position(|one| one.config.name.as_str() == name).unwrap();
+    flown.members.iter().find(|one| one.number == number).unwrap()
+}
+
+/// Texts of what was said, each once, with the time of the first.
+fn said(member: &SimulatedMember) -> Vec<(Duration, &str)> {
+    let mut all: Vec<(Duration, &str)> = Vec::new();
+    for (at, said) in &member.said {
+        if !all.iter().any(|(_, text)| *text == said.text()) {
+            all.push((*at, said.text()));
+        }
+    }
+    all
+}
+
+#[test]
+fn two_pass_a_corridor_one_after_the_other() {
+    let fleet = read("corridor.toml");
+    let flown = fleet::fly(&fleet).unwrap();
+    assert_eq!(fleet::fly(&fleet).unwrap(), flown, "the same again");
+    for member in &flown.members {
+        assert_eq!(member.outcome, Some(Outcome::Completed));
+    }
+    let [left, right] = ["left", "right"].map(|name| said(named(&fleet, &flown, name)));
+    let when = |said: &[(Duration, &str)], text: &str| {
+        said.iter().find(|(_, it)| *it == text).map(|(at, _)| *at).unwrap()
+    };
+    // The first that is let in has come out before the other one is.
+    let lets_in = &named(&fleet, &flown, "keeper").said;
+    let let_in = |to: &str| lets_in.iter().find(|(_, said)| said.to == to).unwrap().0;
+    let (first, second) = (let_in("right"), let_in("left"));
+    assert!(first < second, "{lets_in:?}");
+    assert!(when(&right, "tell through") <= second, "{right:?}");
+    assert!(when(&left, "tell through") > second, "{left:?}");
+    let near = flown.meetings.iter().map(|meeting| meeting.together_m).fold(f64::MAX, f64::min);
+    assert!(near > 2.0, "{near}");
+}
+
+#[test]
+fn a_wingman_relieves_its_leader() {
+    let fleet = read("relief.toml");
+    let flown = fleet::fly(&fleet).unwrap();
+    let [leader, wingman] = ["leader", "wingman"].map(|name| named(&fleet, &flown, name));
+    assert_eq!(leader.outcome, Some(Outcome::Completed));
+    assert_eq!(wingman.outcome, Some(Outcome::Completed));
+    assert!(said(leader).iter().any(|(_, text)| *text == "tell low"));
+    assert!(said(wingman).iter().any(|(_, text)| *text == "tell leads"));
+    assert!(wingman.duration > leader.duration, "it flies on");
+    // Beside the leader it flew where the round does not lead.
+    let furthest_m =
+        |member: &SimulatedMember| member.track_m.iter().map(|place| place.x).fold(0.0, f64::max);
+    let (led, followed) = (furthest_m(leader), furthest_m(wingman));
+    assert!(led < 1.5 && followed > 2.4, "{led} {followed}");
+    // Both land at home.
+    for (member, home) in [(leader, Vector2::new(-2.0, -3.0)), (wingman, Vector2::new(2.0, -3.0))] {
+        let last = member.track_m.last().unwrap();
+        assert!((last - home).norm() < 1.0, "{last}");
+    }
+}
+
+/// A fleet whose vehicles are driven by a test.
+struct Flown {
+    drivers: Vec<Driver<Simulated>>,
+    now: Duration,
+}
+
+impl Flown {
+    fn new(fleet: &Fleet) -> Self {
+        let driver = |member: &Member| {
+            let vehicle = Vehicle::new(&member.config).unwrap();
+            let mut driver = Driver::new(vehicle, &member.world());
+            driver.agent = member.new_agent().unwrap();
+            driver
+        };
+        Self { drivers: fleet.members.iter().map(driver).collect(), now: Duration::ZERO }
+    }
+
+    /// Flies on; `lose` says which of the lines get lost.
+    fn fly(&mut self, time: Duration, mut lose: impl FnMut(&Said) -> bool) {
+        let end = self.now + time;
+        while self.now < end {
+            drive::share_air(&mut self.drivers);
+            let mut told = Vec::new();
+            for driver in &mut self.drivers {
+                if driver.step(|_, _| {}) {
+                    told.extend(driver.vehicle.as_neighbour(self.now));
+                }
+                driver.surroundings.said.retain(|said| !lose(said));
+                driver.pass();
+            }
+            drive::deliver(&mut self.drivers);
+            for driver in &mut self.drivers {
+                for neighbour in &told {
+                    // Its own is refused.
+                    _ = driver.handle(Input::Neighbour(*neighbour), |_, _| {});
+                }
+            }
+            self.now += POLL;
+        }
+    }
+
+    fn is_over(&self, place: usize) -> bool {
+        let driver = &self.drivers[place];
+        driver.agent.as_ref().unwrap().is_over(&driver.vehicle)
+    }
+
+    fn height_m(&self, place: usize) -> f64 {
+        self.drivers[place].world().truth().position_m.z
+    }
+}
+
+const SECOND: Duration = Duration::from_secs(1);
+const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: false };
+
+#[test]
+fn messages_that_are_lost_cost_time_and_nothing_else() {
+    let fleet = read("corridor.toml");
+    for seed in 0..5_u64 {
+        let mut flown = Flown::new(&fleet);
+        let mut state = seed;
+        // Two of three lines are lost.
+        flown.fly(90 * SECOND, |_| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            !(state >> 33).is_multiple_of(3)
+        });
+        for place in 0..3 {
+            assert!(flown.is_over(place), "seed {seed}: {:?}", flown.drivers[place].agent);
+        }
+    }
+}
+
+#[test]
+fn who_hears_nothing_does_not_go_in() {
+    let fleet = read("corridor.toml");
+    let mut flown = Flown::new(&fleet);
+    flown.fly(25 * SECOND, |_| true);
+    for place in [1, 2] {
+        let truth = flown.drivers[place].world().truth();
+        assert!(flown.height_m(place) > 0.5, "{truth:?}");
+        let forward_m = truth.position_m.y - 4.0;
+        assert!(forward_m < -1.5, "it waits in front of the corridor: {forward_m}");
+    }
+}
+
+#[test]
+fn every_person_takes_the_controls_from_an_agent_and_gives_them_back() {
+    let fleet = read("corridor.toml");
+    let mut flown = Flown::new(&fleet);
+    flown.fly(6 * SECOND, |_| false);
+    let left = |flown: &mut Flown, order| flown.drivers[1].order(PAGE, order);
+    left(&mut flown, OperatorOrder::Hold).unwrap();
+    let controls = |flown: &Flown| flown.drivers[1].vehicle.status(flown.now).controls;
+    assert_eq!(controls(&flown), Some(PAGE));
+    let before = flown.drivers[1].world().truth().position_m;
+    flown.fly(5 * SECOND, |_| false);
+    let held = flown.drivers[1].world().truth().position_m;
+    assert!((held - before).xy().norm() < 1.0, "it is held");
+    let agent = flown.drivers[1].order(Operator::AGENT, OperatorOrder::Resume);
+    assert_eq!(agent, Err(Refused::ControlsHeld(PAGE)), "an agent overrules nobody");
+    left(&mut flown, OperatorOrder::Release).unwrap();
+    flown.fly(40 * SECOND, |_| false);
+    assert!((0..3).all(|place| flown.is_over(place)), "the mission goes on");
+    assert_eq!(flown.drivers[1].vehicle.outcome(), Some(&Outcome::Completed));
+}
+
+#[test]
+fn an_agent_whose_flight_was_ended_by_somebody_else_does_not_take_off_again() {
+    let fleet = read("corridor.toml");
+    let mut flown = Flown::new(&fleet);
+    flown.fly(6 * SECOND, |_| false);
+    flown.drivers[1].order(PAGE, OperatorOrder::Land).unwrap();
+    flown.fly(6 * SECOND, |_| false);
+    assert!(flown.is_over(1));
+    flown.drivers[1].order(PAGE, OperatorOrder::Release).unwrap();
+    flown.fly(6 * SECOND, |_| false);
+    assert!(flown.height_m(1) < 0.05, "{}", flown.height_m(1));
+    assert_eq!(flown.drivers[1].vehicle.outcome(), Some(&Outcome::Interrupted));
+}
+
+#[test]
+fn lines_that_are_no_messages_are_refused_and_told() {
+    let fleet = read("corridor.toml");
+    let mut flown = Flown::new(&fleet);
+    flown.fly(SECOND, |_| false);
+    let mut refused = 0;
+    let lines = [
+        "",
+        "x",
+        "0000000000000000 left tell waiting",
+        "\u{0}",
+        "bdeb1a92c5c08985 nobody tell low",
+    ];
+    for line in lines {
+        flown.drivers[0].surroundings.heard.push_back(Line::from(line).unwrap());
+    }
+    for _ in 0..20 {
+        let driver = &mut flown.drivers[0];
+        driver.step(|_, passed| refused += usize::from(matches!(passed, Passed::Misunderstood(_))));
+        driver.pass();
+    }
+    assert_eq!(refused, lines.len());
+}
+
+/// The examples' agents are as safe as is said of them: one corridor, whatever is lost or late.
+#[test]
+fn what_is_said_of_the_agents_is_checked() {
+    for (name, holds) in
+        [("corridor.system", 1), ("keeper.conf", 3), ("traveller.conf", 3), ("wingman.conf", 3)]
+    {
+        let checked = program("asl2c")
+            .args(["verify", &format!("../mission-agent/agents/{name}")])
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&checked.stdout);
+        assert!(checked.status.success(), "{text}{}", String::from_utf8_lossy(&checked.stderr));
+        assert_eq!(text.matches("holds in every environment").count(), holds, "{text}");
+    }
+}
+
+#[test]
+fn telemetry_of_an_agents_flight_ends_with_its_mission() {
+    let fleet = read("corridor.toml");
+    let mut flown = Flown::new(&fleet);
+    let mut ended = 0;
+    while flown.now < 40 * SECOND {
+        let driver = &mut flown.drivers[0];
+        driver.step(|_, passed| {
+            ended += usize::from(matches!(passed, Passed::Told(Telemetry::Ended(..))))
+        });
+        driver.pass();
+        flown.now += POLL;
+    }
+    assert_eq!(ended, 0, "who never flew has ended no flight");
+}
