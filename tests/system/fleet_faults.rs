@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use nalgebra::Vector2;
 use system_tests::fleet::{
-    Air, Falsehood, Fleet, FleetFlight, Lie, NEAREST_M, Partition, corridor, crossing,
+    Air, Falsehood, Fleet, FleetFlight, Lie, NEAREST_M, Partition, corridor, crossing, liar,
+    take_off,
 };
 
 const LIMIT: Duration = Duration::from_mins(4);
@@ -89,11 +90,21 @@ fn a_place_that_may_be_so_is_believed() {
 }
 
 #[test]
-fn in_a_corridor_somebody_makes_way() {
-    for seed in 0..6 {
-        let flight = flown(&corridor(seed));
-        assert!(flight.keeps_apart() && flight.is_complete(), "{seed}: {flight:?}");
-        assert!(flight.nearest_m() > NEAREST_M);
+fn all_arrive_that_meet_in_a_corridor_or_as_they_take_off() {
+    for seed in 0..4 {
+        for fleet in [corridor(seed), take_off(seed)] {
+            let flight = flown(&fleet);
+            assert!(flight.keeps_apart() && flight.is_complete(), "{seed}: {flight:?}");
+        }
+    }
+}
+
+/// It hovers in the way of another one, keeps away from nobody, and tells that it is elsewhere.
+#[test]
+fn nobody_believes_that_its_way_is_free_when_who_was_there_cannot_have_got_away() {
+    for seed in 0..4 {
+        let flight = flown(&liar(seed));
+        assert!(flight.keeps_apart() && !flight.members[0].is_complete(), "{seed}: {flight:?}");
     }
 }
 

@@ -99,7 +99,7 @@ pub fn liar(seed: u64) -> Fleet {
     }
     let who = fleet.members.len();
     fleet.members.append(&mut middle);
-    let since = Duration::from_secs_f64(random.random_range(6.0..9.0));
+    let since = Duration::from_secs_f64(random.random_range(3.5..6.5));
     let off_m = Vector2::new(random.random_range(4.0..8.0), 0.0);
     let what = if seed.is_multiple_of(2) {
         Falsehood::Place(off_m)

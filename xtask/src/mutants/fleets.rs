@@ -4,7 +4,6 @@ use super::list::{Mutant, SAFETY, mutant};
 use crate::edit::{edit, layered};
 
 const SEPARATION: &str = "autopilot/src/separation.rs";
-const PASSING: &str = "autopilot/src/separation/passing.rs";
 const NEIGHBOURS: &str = "autopilot/src/vehicle/neighbours.rs";
 
 /// All of them.
@@ -20,12 +19,6 @@ pub(super) const MUTANTS: &[Mutant] = &[
         SEPARATION,
         "let age = now.saturating_sub(self.at);",
         "let age = now.saturating_sub(self.at) * 0;",
-    ),
-    mutant(
-        "of two that claim the way nobody is the first",
-        PASSING,
-        "(self.rank, system) < (own, own_system)",
-        "self.rank.behind < own.behind",
     ),
     mutant(
         "of two that are about to take off nobody is the first",
