@@ -38,9 +38,6 @@ pub(crate) struct Request {
     /// Only until one is bad, which is all that is printed: how `mutants --fleets` judges
     #[arg(long)]
     until_bad: bool,
-    /// Fleets that are not judged then, as they are named when they are bad
-    #[arg(long, value_name = "KIND:SEED", value_delimiter = ',', requires = "until_bad")]
-    except: Vec<String>,
 }
 
 /// A kind of fleets, each of which follows from its seed.
@@ -102,16 +99,14 @@ impl std::fmt::Display for Kind {
 /// Flies random fleets, and a fifth as many meetings of each kind; returns the report, and whether all kept apart and came
 /// down, and all that met on purpose arrived. Of a single fleet it tells what happened.
 pub(crate) fn run(request: &Request) -> Result<(String, bool), CannotFly> {
-    let Request { fleets, first, until_bad, except } = request;
+    let Request { fleets, first, until_bad } = request;
     let end = first.saturating_add(*fleets);
     let mut table = Table::default();
     let mut begin = *first;
     while begin < end {
         let next = begin.saturating_add(AT_ONCE).min(end);
         let bad = fly(begin..next, *first, &mut table)?;
-        let named =
-            |line: &&String| !except.iter().any(|name| line.starts_with(&format!("{name}: ")));
-        if let Some(line) = bad.iter().find(named).filter(|_| *until_bad) {
+        if let Some(line) = bad.first().filter(|_| *until_bad) {
             return Ok((format!("{line}\n"), false));
         }
         begin = next;
