@@ -17,6 +17,7 @@ mod estimate;
 mod faults;
 mod fleet;
 mod fleet_air;
+mod fleet_faults;
 mod fleet_program;
 mod ground_station;
 mod keyboard;

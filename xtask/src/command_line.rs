@@ -119,16 +119,9 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
-    /// Fly several vehicles in one room, with lost messages and faults, and report how near they came to each other; fails if
-    /// two came too near, one stayed up, or one that crosses with others did not arrive
-    Fleets {
-        /// How many random fleets, and a fifth as many crossings of each of two to six
-        #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
-        fleets: u64,
-        /// The first seed; each further fleet takes the next one
-        #[arg(long, value_name = "SEED", default_value_t = 0)]
-        first: u64,
-    },
+    /// Fly several vehicles in one room, with faults of all kinds, and report how near they came to each other; fails if two came
+    /// too near, one stayed up, or one that meets others on purpose did not arrive
+    Fleets(fleets::Request),
     /// Fly where tags or a GPS know the place too, with a right velocity and a wrong one, and report how often they
     /// contradicted it; fails if they contradicted a right one
     CrossChecks {
@@ -157,12 +150,15 @@ enum Command {
         /// At most this many flights with each
         #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
+        /// Instead, mutants of what keeps vehicles apart, and at most this many random fleets with each
+        #[arg(long, value_name = "N", conflicts_with = "flights", value_parser = clap::value_parser!(u64).range(1..))]
+        fleets: Option<u64>,
         /// Only mutants with this in their name
         #[arg(long, value_name = "TEXT")]
         only: Option<String>,
         /// Instead, all mutants that cargo-mutants generates, against the tests in simulated time: takes
         /// hours
-        #[arg(long, conflicts_with_all = ["flights", "only"])]
+        #[arg(long, conflicts_with_all = ["flights", "fleets", "only"])]
         all: bool,
         /// A part of those, such as 0/20
         #[arg(long, value_name = "K/N", requires = "all")]
@@ -252,11 +248,16 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         }
         Command::Compare { before, after } => compare::run(&before, &after)?,
         Command::Streams { streams, first } => streams::run(streams, first)?,
-        Command::Fleets { fleets, first } => fleets::run(fleets, first)?,
+        Command::Fleets(request) => fleets::run(&request)?,
         Command::CrossChecks { flights, first } => cross_checks::run(flights, first)?,
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each)?,
         Command::Mutants { all: true, shard, .. } => mutants::all(shard.as_deref())?,
-        Command::Mutants { flights, only, .. } => mutants::by_hand(flights, only.as_deref())?,
+        Command::Mutants { fleets: Some(fleets), only, .. } => {
+            mutants::by_hand(mutants::Judge::Fleets(fleets), only.as_deref())?
+        }
+        Command::Mutants { flights, only, .. } => {
+            mutants::by_hand(mutants::Judge::Flights(flights), only.as_deref())?
+        }
         Command::Rules => rules::run()?,
         Command::Ablation { seeds, random, healthy, only } => {
             let flights = mutants::ablation::Flights { seeds, random, healthy };

@@ -189,7 +189,8 @@ fn drone(
     }
 }
 
-fn injected(random: &mut impl Rng, strongest_m_s: f64, flies: bool) -> Injected {
+/// The faults of a flight; `flies`: the drone is in the air from the start.
+pub(crate) fn injected(random: &mut impl Rng, strongest_m_s: f64, flies: bool) -> Injected {
     let mut injected = Injected::default();
     for _ in 0..random.random_range(0..4) {
         let at = seconds(random, 0.0, 40.0);
@@ -243,7 +244,8 @@ fn plan(random: &mut impl Rng, limits: &FlightLimits, flies: bool) -> String {
     text + "land\n"
 }
 
-fn link(random: &mut impl Rng) -> LinkFaults {
+/// A link that loses, delays, doubles, swaps and spoils datagrams.
+pub(crate) fn link(random: &mut impl Rng) -> LinkFaults {
     LinkFaults {
         loss: random.random_range(0.0..0.4),
         delay: seconds(random, 0.0, 0.08),

@@ -9,10 +9,10 @@ use mock_drone::{Quantity, SensorFault, Truth};
 
 /// The faults of a flight.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Injected {
-    pub(super) accidents: Vec<(When, Action)>,
+pub(crate) struct Injected {
+    pub(crate) accidents: Vec<(When, Action)>,
     /// Times and durations in which the pilot's program does not run.
-    pub(super) stalls: Vec<(Duration, Duration)>,
+    pub(crate) stalls: Vec<(Duration, Duration)>,
     /// The pilot was told wrong positions of tags.
     pub(super) is_survey_wrong: bool,
     /// Time of the first take-off.
@@ -21,14 +21,14 @@ pub(super) struct Injected {
 
 impl Injected {
     /// The faults as a scenario.
-    pub(super) fn scenario(&self) -> Scenario {
+    pub(crate) fn scenario(&self) -> Scenario {
         self.accidents
             .iter()
             .fold(Scenario::default(), |scenario, (when, action)| scenario.and(*when, *action))
     }
 
     /// Detects the take-off.
-    pub(super) fn see(&mut self, truth: &Truth) {
+    pub(crate) fn see(&mut self, truth: &Truth) {
         if is_airborne(truth) {
             // It is seen at the end of the tick in which it happens.
             self.take_off.get_or_insert(truth.time.saturating_sub(TICK));
@@ -36,7 +36,7 @@ impl Injected {
     }
 
     /// Faults that have begun, with their times.
-    fn begun(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
+    pub(crate) fn begun(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
         self.times().filter(move |(at, _)| *at <= now)
     }
 
@@ -66,7 +66,7 @@ impl Injected {
     }
 
     /// Whether the program is stopped.
-    pub(super) fn is_stalled(&self, now: Duration) -> bool {
+    pub(crate) fn is_stalled(&self, now: Duration) -> bool {
         self.stalls.iter().any(|(at, time)| (*at..*at + *time).contains(&now))
     }
 
@@ -91,7 +91,7 @@ impl Injected {
     }
 
     /// Whether another pilot sends commands, or has within `since`.
-    pub(super) fn second_pilot(&self, now: Duration, since: Duration) -> bool {
+    pub(crate) fn second_pilot(&self, now: Duration, since: Duration) -> bool {
         self.begun(now).any(|(at, action)| match action {
             Action::SecondPilot(time, _) => now < at + *time + since,
             _ => false,
@@ -108,7 +108,7 @@ impl Injected {
     }
 
     /// Whether navdata have been wrong so far.
-    pub(super) fn has_lied(&self, now: Duration) -> bool {
+    pub(crate) fn has_lied(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| matches!(action, Action::Sensor(..) | Action::Freeze(_)))
     }
 
@@ -197,7 +197,7 @@ impl Injected {
     }
 
     /// The current wind.
-    pub(super) fn wind_m_s(&self, now: Duration) -> Option<f64> {
+    pub(crate) fn wind_m_s(&self, now: Duration) -> Option<f64> {
         self.wind(now).map(|(speed_m_s, _)| speed_m_s)
     }
 

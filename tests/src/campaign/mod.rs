@@ -24,6 +24,8 @@ use crate::sim::SimulationError;
 
 pub use self::fault::{Danger, Fault};
 use self::flight::Flight;
+pub(crate) use self::flight::{injected, link};
+pub(crate) use self::injected::Injected;
 use self::judge::Judge;
 
 /// Result of a flight.

@@ -2,31 +2,41 @@
 //!
 //! The same configuration gives the same flights, bit for bit.
 
+mod air;
+mod hand;
+mod judge;
+mod kinds;
+mod meetings;
 mod random;
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::time::Duration;
 
 use ardrone_pilot::drive::{self, Driver, POLL, Passed, Simulated};
 use autopilot::outcome::Outcome;
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{
-    self, CannotFly, FlightEvent, Input, Operator, OperatorOrder, Start, TICK, Telemetry, Vehicle,
-    VehicleConfig,
+    self, CannotFly, FlightEvent, Input, Operator, OperatorOrder, Start, TICK, Telemetry, Transmit,
+    Vehicle, VehicleConfig,
 };
-use kinematics::world_from_body;
 use mock_drone::firmware::Phase;
 use mock_drone::{Standing, Truth, WorldConfig};
 use nalgebra::{Vector2, Vector3};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// No two in the air may be nearer to each other across, in truth.
-pub const NEAREST_M: f64 = 0.8;
+use self::air::Mail;
+pub use self::air::{Air, Falsehood, Lie, Partition};
+use self::hand::Hand;
+use self::judge::Seen;
+pub use self::judge::{Least, NEAREST_M, Nearest};
+pub use self::meetings::{corridor, crossing, liar, take_off};
+use crate::airframes::strongest_wind_m_s;
+use crate::campaign::Injected;
 
-/// A drone that has not been heard for this long flies on as it was ordered last: until it is heard again, and for a while.
-const HEARD: Duration = Duration::from_millis(300);
-const RUNS_AWAY: Duration = Duration::from_secs(8);
+/// Time after the last flight in which drones that nobody steers must land by themselves.
+const AFTERMATH: Duration = Duration::from_secs(45);
 
 /// One vehicle of a fleet.
 #[derive(Debug, Clone)]
@@ -41,23 +51,10 @@ pub struct Member {
     pub pilot: VehicleConfig,
     /// Orders of its operator with their times, in the order of time.
     pub orders: Vec<(Duration, OperatorOrder)>,
-}
-
-/// How messages between vehicles travel, and whether more than messages does.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Air {
-    /// Share of them that is lost.
-    pub loss: f64,
-    /// Delay of each.
-    pub delay: Duration,
-    /// From when to when none arrives.
-    pub silent: Option<[Duration; 2]>,
-    /// From when on the first vehicle tells a wrong place, and how far that is off.
-    pub lie: Option<(Duration, Vector2<f64>)>,
-    /// Seed of the losses.
-    pub seed: u64,
-    /// Whether the drones share the air: each feels the wash of those above, and hears the ultrasound of those nearby.
-    pub is_shared: bool,
+    /// It is flown by somebody else's program: it hears of nobody and keeps away from nobody, but its place is told.
+    pub is_foreign: bool,
+    /// Faults of the campaign of single flights.
+    pub(crate) injected: Injected,
 }
 
 /// Vehicles in one room.
@@ -84,15 +81,11 @@ pub struct MemberFlight {
     pub reported_height_error_m: f64,
 }
 
-/// Two vehicles in the air, and how near they were to each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
-    /// Their numbers.
-    pub who: [usize; 2],
-    /// When.
-    pub at: Duration,
-    /// Their distance across, in truth.
-    pub across_m: f64,
+impl MemberFlight {
+    /// Whether it has flown its plan to the end.
+    pub fn is_complete(&self) -> bool {
+        self.outcome == Some(Outcome::Completed)
+    }
 }
 
 /// The flights of a fleet.
@@ -102,24 +95,25 @@ pub struct FleetFlight {
     pub members: Vec<MemberFlight>,
     /// Where they are at the end, in truth.
     pub places_m: Vec<Vector3<f64>>,
-    /// The least distance of two in the air whose drones are heard; none if there never were two.
-    pub nearest: Option<Nearest>,
-    /// Likewise if one of them was not heard by its pilot, or not long ago: it flies on as it was ordered last, and nobody can
-    /// stop it.
-    pub runaway: Option<Nearest>,
+    /// How near they came to each other.
+    pub least: Least,
     /// Whether all were on the ground at the end.
     pub is_down: bool,
+    /// The kinds of faults that had begun before the end.
+    pub kinds: BTreeSet<&'static str>,
+    /// Hash of all datagrams to the drones, with their times.
+    pub datagrams: u64,
 }
 
 impl FleetFlight {
     /// Whether all have flown their plans to the end.
     pub fn is_complete(&self) -> bool {
-        self.members.iter().all(|member| member.outcome == Some(Outcome::Completed))
+        self.members.iter().all(MemberFlight::is_complete)
     }
 
-    /// How near two came to each other whose drones were heard.
+    /// How near two came to each other for which there is no excuse.
     pub fn nearest_m(&self) -> f64 {
-        self.nearest.map_or(f64::INFINITY, |nearest| nearest.across_m)
+        self.least.judged.map_or(f64::INFINITY, |nearest| nearest.across_m)
     }
 
     /// Whether no two of them came too near to each other, and all came down.
@@ -137,10 +131,13 @@ struct Flying {
     driver: Driver<Simulated>,
     flight: MemberFlight,
     orders: VecDeque<(Duration, OperatorOrder)>,
-    /// When its drone was last not heard for too long.
-    unheard_at: Option<Duration>,
-    /// What was told to it, with the time of arrival.
-    mail: VecDeque<(Duration, Neighbour)>,
+    hand: Hand,
+    mail: Mail,
+    /// The message with which it began to tell what is not so.
+    lie: Option<Neighbour>,
+    /// How far the place that it told last is from the one it knows.
+    told_off_m: Vector2<f64>,
+    sent: DefaultHasher,
 }
 
 impl Flying {
@@ -152,11 +149,6 @@ impl Flying {
     fn is_up(&self) -> bool {
         let Truth { phase, position_m, .. } = self.driver.world().truth();
         !matches!(phase, Phase::Landed) && position_m.z > 0.1
-    }
-
-    /// Whether its pilot hears its drone, and did so for a while.
-    fn is_heard(&self, now: Duration) -> bool {
-        self.unheard_at.is_none_or(|at| now > at + RUNS_AWAY)
     }
 
     /// Whether it flies no more, and nothing is ordered.
@@ -172,17 +164,18 @@ impl Flying {
                 _ = self.driver.order(Operator::TERMINAL, order);
             }
         }
-        while self.mail.front().is_some_and(|(at, _)| *at <= now) {
-            if let Some((_, neighbour)) = self.mail.pop_front() {
-                _ = self.driver.handle(Input::Neighbour(neighbour), |_, _| {});
-            }
+        while let Some(neighbour) = self.mail.take(now) {
+            _ = self.driver.handle(Input::Neighbour(neighbour), |_, _| {});
         }
     }
 
     /// Lets it do what is due; returns whether it has ticked.
     fn step(&mut self) -> bool {
-        let flight = &mut self.flight;
+        let (flight, sent) = (&mut self.flight, &mut self.sent);
         let ticked = self.driver.step(|at, passed| match passed {
+            Passed::Sent { transmit: Transmit::Command { datagram, .. }, .. } => {
+                (at, datagram).hash(sent);
+            }
             Passed::Told(Telemetry::Event(event)) => flight.events.push((at, event)),
             Passed::Told(Telemetry::Ended(outcome, _)) => {
                 (flight.outcome, flight.ended) = (Some(outcome), at);
@@ -199,12 +192,32 @@ impl Flying {
             let off_m = (reported_m.unwrap_or(height_m) - height_m).abs();
             self.flight.reported_height_error_m = self.flight.reported_height_error_m.max(off_m);
         }
-        let now = self.driver.now();
-        if self.driver.vehicle.status(now).navdata_age.is_some_and(|age| age > HEARD) {
-            self.unheard_at = Some(now);
-        }
-        self.driver.pass();
         ticked
+    }
+
+    /// What it tells the others, if it does in this tick.
+    fn tells(&mut self, now: Duration, number: usize, air: &Air) -> Option<Neighbour> {
+        let truth = self.driver.vehicle.as_neighbour(now)?;
+        let told = air.told(now, number, truth, &mut self.lie);
+        self.told_off_m = told.place_m - truth.place_m;
+        Some(told)
+    }
+
+    /// This vehicle for the judge.
+    fn seen(&mut self, now: Duration, number: usize, air: &Air) -> Seen {
+        let status = self.driver.vehicle.status(now);
+        let truth = self.driver.world().truth();
+        self.hand.watch(now, &truth, status.navdata_age);
+        let lies = air.is_credible_lie(now, number);
+        let off_m = if lies { self.told_off_m } else { Vector2::zeros() };
+        let is_wrong = lies || self.hand.injected.has_lied(now);
+        let told_m = status.pose.map(|pose| Vector2::new(pose.x_m, pose.y_m) + off_m);
+        Seen {
+            place_m: self.place_m(),
+            told_m: told_m.filter(|_| is_wrong),
+            is_up: self.is_up(),
+            is_lost: self.hand.is_lost(now),
+        }
     }
 }
 
@@ -236,7 +249,8 @@ impl Fleet {
         let mut flying = Vec::new();
         let systems = || (1..).take(self.members.len());
         for (system, member) in systems().zip(&self.members) {
-            let peers = systems().filter(|peer| *peer != system).collect();
+            let hears = |peer: &u8| *peer != system && !member.is_foreign;
+            let peers = systems().filter(hears).collect();
             let mut config = VehicleConfig { system, peers, ..member.pilot.clone() };
             config.starts_at(Some(member.start));
             let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
@@ -253,87 +267,68 @@ impl Fleet {
                     reported_height_error_m: 0.0,
                 },
                 orders: member.orders.iter().cloned().collect(),
-                unheard_at: None,
-                mail: VecDeque::new(),
+                hand: Hand::new(
+                    member.injected.clone(),
+                    strongest_wind_m_s(&member.world.drone.profile),
+                    member.world.drone.wind_m_s.norm(),
+                ),
+                mail: Mail::default(),
+                lie: None,
+                told_off_m: Vector2::zeros(),
+                sent: DefaultHasher::new(),
             });
         }
-        let mut nearest = [None; 2];
+        let mut least = Least::default();
         let mut now = Duration::ZERO;
-        while now < limit && !flying.iter().all(Flying::is_over) {
+        let mut over_at = None;
+        while now < limit {
+            if flying.iter().all(Flying::is_over) {
+                let over_at = *over_at.get_or_insert(now);
+                if now >= over_at + AFTERMATH || !flying.iter().any(Flying::is_up) {
+                    break;
+                }
+            }
             if self.air.is_shared {
                 drive::share_air(flying.iter_mut().map(|member| &mut member.driver));
             }
             let mut told = Vec::new();
             for (number, member) in flying.iter_mut().enumerate() {
-                member.receive(now);
-                if member.step() {
-                    told.extend(member.driver.vehicle.as_neighbour(now).map(|of| (number, of)));
+                if member.hand.injected.is_stalled(now) {
+                    member.driver.stall();
+                } else {
+                    member.receive(now);
+                    if member.step() {
+                        told.extend(member.tells(now, number, &self.air).map(|of| (number, of)));
+                    }
                 }
+                member.driver.pass();
             }
-            for (from, mut neighbour) in told {
-                if let Some((_, off_m)) = self.air.lie.filter(|(at, _)| from == 0 && now >= *at) {
-                    neighbour.place_m += off_m;
-                }
-                for (number, member) in flying.iter_mut().enumerate() {
-                    let is_silent =
-                        self.air.silent.is_some_and(|[from, to]| (from..to).contains(&now));
-                    let is_lost = rng.random::<f64>() < self.air.loss;
-                    if number != from && !is_lost && !is_silent {
-                        member.mail.push_back((now + self.air.delay, neighbour));
+            for (from, neighbour) in told {
+                let hears = |to: usize| to != from && !self.members[to].is_foreign;
+                for (to, member) in flying.iter_mut().enumerate().filter(|(to, _)| hears(*to)) {
+                    if let Some(at) = self.air.arrives(now, [from, to], &mut rng) {
+                        member.mail.put(at, neighbour);
                     }
                 }
             }
             if now.as_millis().is_multiple_of(TICK.as_millis()) {
-                let places_m: Vec<_> = flying.iter().map(Flying::place_m).collect();
+                let seen = flying.iter_mut().enumerate();
+                let seen: Vec<_> =
+                    seen.map(|(number, member)| member.seen(now, number, &self.air)).collect();
+                let places_m: Vec<_> = seen.iter().map(|seen| seen.place_m).collect();
                 watch(now, &places_m);
-                nearest = nearer(nearest, now, &flying, &places_m);
+                least.watch(now, &seen);
             }
             now += POLL;
         }
         let is_down = !flying.iter().any(Flying::is_up);
         let places_m = flying.iter().map(Flying::place_m).collect();
-        let members = flying.into_iter().map(|member| member.flight).collect();
-        let [nearest, runaway] = nearest;
-        Ok(FleetFlight { members, places_m, nearest, runaway, is_down })
-    }
-}
-
-/// The least distances until now: of two that are heard, and of others.
-fn nearer(
-    known: [Option<Nearest>; 2],
-    at: Duration,
-    flying: &[Flying],
-    places_m: &[Vector3<f64>],
-) -> [Option<Nearest>; 2] {
-    let up: Vec<usize> = (0..flying.len()).filter(|number| flying[*number].is_up()).collect();
-    let pairs = || up.iter().flat_map(|a| up.iter().map(move |b| [*a, *b])).filter(|[a, b]| a < b);
-    [true, false].map(|heard| {
-        let of = pairs().filter(|pair| pair.iter().all(|one| flying[*one].is_heard(at)) == heard);
-        let distances = of.map(|[a, b]| {
-            let across: Vector2<f64> = places_m[a].xy() - places_m[b].xy();
-            Nearest { who: [a, b], at, across_m: across.norm() }
-        });
-        let known = known[usize::from(!heard)].into_iter();
-        known.chain(distances).min_by(|a, b| a.across_m.total_cmp(&b.across_m))
-    })
-}
-
-/// Vehicles on a circle, each of which flies to the opposite place: through one point.
-pub fn crossing(count: usize, radius_m: f64, seed: u64) -> Fleet {
-    let members = (0..count).map(|number| {
-        #[expect(clippy::cast_precision_loss, reason = "a fleet is small")]
-        let angle_deg = 360.0 * number as f64 / count as f64;
-        let place_m = world_from_body(Vector2::new(0.0, -radius_m), angle_deg);
-        let mut world = WorldConfig::default();
-        world.drone.seed = seed * 100 + number as u64;
-        let [x_m, y_m] = (-place_m).into();
-        Member {
-            start: Start { place_m, heading_deg: angle_deg, deviation_m: 0.0 },
-            plan: format!("takeoff\ngoto {x_m} {y_m} 0.5 0\nland\n"),
-            world,
-            pilot: VehicleConfig::default(),
-            orders: Vec::new(),
+        let mut all = DefaultHasher::new();
+        for member in &flying {
+            member.sent.finish().hash(&mut all);
         }
-    });
-    Fleet { members: members.collect(), air: Air { seed, ..Air::default() } }
+        let kinds = self.kinds(now, flying.iter().map(|member| &member.hand.injected));
+        let members = flying.into_iter().map(|member| member.flight).collect();
+        Ok(FleetFlight { members, places_m, least, is_down, kinds, datagrams: all.finish() })
+    }
 }

@@ -5,6 +5,7 @@
 //! against the tests in simulated time (`.cargo/mutants.toml`).
 
 pub(crate) mod ablation;
+mod fleets;
 mod layers;
 mod list;
 mod workspace;
@@ -76,20 +77,33 @@ enum End {
     Survived,
 }
 
-/// Flies each mutant, or those with `only` in their name, until a fault is found or `flights` were flown. The
-/// second value is whether the judge found in each what it must.
-pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
-    let (mutants, workspace) = chosen(all_by_hand(), only)?;
-    if let End::Caught(what) = judged(&workspace, "the code as it is", flights)? {
+/// Who flies the mutants, and how many times at most.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Judge {
+    /// The example `judge`: the campaign of single flights, and others.
+    Flights(u64),
+    /// `cargo xtask fleets`.
+    Fleets(u64),
+}
+
+/// Flies each mutant, or those with `only` in their name, until a fault is found or all were flown. The second value is
+/// whether the judge found in each what it must.
+pub(crate) fn by_hand(judge: Judge, only: Option<&str>) -> Result<(String, bool), MutantsError> {
+    let (mutants, workspace) = match judge {
+        Judge::Flights(_) => chosen(all_by_hand(), only)?,
+        Judge::Fleets(_) => chosen(fleets::MUTANTS.iter(), only)?,
+    };
+    if let End::Caught(what) = judged(&workspace, "the code as it is", judge)? {
         return Err(MutantsError::Healthy(what));
     }
+    let (Judge::Flights(flights) | Judge::Fleets(flights)) = judge;
     let mut text = String::new();
     let (mut caught, mut covered) = (0, 0);
     let mut broken = None;
     for mutant in &mutants {
         let changed = workspace.changed(mutant)?;
         workspace.put(&changed)?;
-        let end = judged(&workspace, mutant.name, flights);
+        let end = judged(&workspace, mutant.name, judge);
         workspace.restore(&changed)?;
         let outcome = match (end, mutant.expected) {
             (Ok(End::Caught(what)), Expected::Fault) => {
@@ -122,15 +136,26 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     Ok((text, caught + covered == all))
 }
 
-/// The mutants of both lists.
+/// The mutants that single flights detect.
 fn all_by_hand() -> impl Iterator<Item = &'static Mutant> {
     list::MUTANTS.iter().chain(layers::MUTANTS)
 }
 
 /// Builds the workspace and runs the judge on it.
-fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, MutantsError> {
+fn judged(workspace: &Workspace, name: &str, judge: Judge) -> Result<End, MutantsError> {
+    let (package, program, arguments) = match judge {
+        Judge::Flights(flights) => {
+            (["system-tests", "--example", "judge"], "examples/judge", vec![flights.to_string()])
+        }
+        Judge::Fleets(fleets) => {
+            let fleets = fleets.to_string();
+            let arguments = ["fleets", "--until-bad", "--fleets", &fleets].map(str::to_owned);
+            (["xtask", "--bin", "xtask"], "xtask", arguments.to_vec())
+        }
+    };
     let built = cargo(workspace.root())
-        .args(["build", "--locked", "--quiet", "-p", "system-tests", "--example", "judge"])
+        .args(["build", "--locked", "--quiet", "-p"])
+        .args(package)
         .env("CARGO_TARGET_DIR", workspace.target())
         // Debug information would only slow the build.
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
@@ -140,8 +165,8 @@ fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, Mutant
         let text = String::from_utf8_lossy(&built.stderr).into_owned();
         return Err(MutantsError::Build { name: name.to_owned(), text });
     }
-    let judge = workspace.target().join("debug/examples/judge");
-    let judged = Command::new(&judge).arg(flights.to_string()).output();
+    let judge = workspace.target().join("debug").join(program);
+    let judged = Command::new(&judge).args(arguments).output();
     Ok(end(&judged.map_err(in_file("cannot run", &judge))?))
 }
 
@@ -240,7 +265,8 @@ mod tests {
     #[test]
     fn each_mutant_can_be_made() {
         let workspace = Workspace::here(Path::new(".."));
-        let changed: Vec<_> = all_by_hand().map(|mutant| workspace.changed(mutant)).collect();
+        let all = all_by_hand().chain(fleets::MUTANTS);
+        let changed: Vec<_> = all.map(|mutant| workspace.changed(mutant)).collect();
         let problems: Vec<String> =
             changed.iter().filter_map(|it| it.as_ref().err()).map(ToString::to_string).collect();
         assert!(problems.is_empty(), "{}", problems.join("\n"));
