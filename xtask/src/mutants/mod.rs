@@ -263,6 +263,11 @@ mod tests {
     }
 
     #[test]
+    fn the_judge_of_single_flights_is_there() {
+        assert!(Path::new("../tests/examples/judge.rs").exists(), "it is built by this name");
+    }
+
+    #[test]
     fn each_mutant_can_be_made() {
         let workspace = Workspace::here(Path::new(".."));
         let all = all_by_hand().chain(fleets::MUTANTS);
