@@ -398,11 +398,7 @@ struct Left {
 ///
 /// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flights nevertheless: they are told by
 /// the threads that wait for them.
-fn pass_on(
-    flying: Vec<Under<'_>>,
-    network: &Receiver<network::News>,
-    mut show: impl FnMut(News),
-) {
+fn pass_on(flying: Vec<Under<'_>>, network: &Receiver<network::News>, mut show: impl FnMut(News)) {
     let (sender, news) = bounded::<News>(UNSHOWN * flying.len());
     std::thread::scope(|scope| {
         for (place, under) in flying.into_iter().enumerate() {

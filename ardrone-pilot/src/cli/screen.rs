@@ -71,7 +71,8 @@ impl Screen {
             before(panic);
         }));
         let views = limits.into_iter().map(|limits| View::new(&limits));
-        let views = Views { all: crew.names().zip(views).collect(), elsewhere: Vec::new(), shown: 0 };
+        let views =
+            Views { all: crew.names().zip(views).collect(), elsewhere: Vec::new(), shown: 0 };
         let mut screen = Self { terminal, area, views, crew, warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)

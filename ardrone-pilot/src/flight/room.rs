@@ -184,7 +184,8 @@ mod tests {
         seats[0].tell(start, at(1, 700, Presence::Flies));
         let told = places.read(0).unwrap();
         assert_eq!((told.at, told.is_parked), (start + 700 * MS, false));
-        let there = Placed { at: start + 650 * MS, neighbour: at(2, 5, Presence::Flies), is_parked: false };
+        let there =
+            Placed { at: start + 650 * MS, neighbour: at(2, 5, Presence::Flies), is_parked: false };
         places.write(1, there);
         assert_eq!(seats[0].hear(start, 900 * MS).next(), Some(at(2, 650, Presence::Flies)));
         assert_eq!(seats[0].hear(start, 930 * MS).next(), None, "nothing is new");

@@ -105,8 +105,7 @@ impl Shared {
                 state.heard += 1;
                 // Nothing is older than the machine's own clock, but for what is two seconds old on one that has just begun.
                 let Some(at) = now.checked_sub(heard.age) else { return };
-                let placed =
-                    Placed { at, neighbour: heard.neighbour, is_parked: heard.is_parked };
+                let placed = Placed { at, neighbour: heard.neighbour, is_parked: heard.is_parked };
                 // Still locked: two that arrive at once are written in their order.
                 self.places.write(heard.place, placed);
             }
@@ -173,7 +172,10 @@ impl Bridge {
         let state = Mutex::new(Listening { peers, told: 0, heard: 0 });
         let shared = Arc::new(Shared { start: Instant::now(), places, state, news: sender });
         let opening = open(config, Arc::clone(&shared), inboxes);
-        let open = runtime.handle().block_on(opening).map_err(|error| NetworkError::Open(error.to_string()))?;
+        let open = runtime
+            .handle()
+            .block_on(opening)
+            .map_err(|error| NetworkError::Open(error.to_string()))?;
         let carried = Arc::clone(&shared);
         let task = runtime.run("the network", |ended| carry(ended, open, carried, outboxes));
         Ok(Self { shared, task, news, talks })

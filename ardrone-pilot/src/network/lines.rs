@@ -115,8 +115,7 @@ impl Inbox {
     pub fn new(vehicle: VehicleName) -> (Self, Outbox, Talk) {
         let ((said, outbox), (heard, inbox)) = (bounded(WAITING), bounded(WAITING));
         let dropped = Arc::<AtomicU64>::default();
-        let talk =
-            Talk { vehicle, said, heard: inbox, unsaid: 0, dropped: Arc::clone(&dropped) };
+        let talk = Talk { vehicle, said, heard: inbox, unsaid: 0, dropped: Arc::clone(&dropped) };
         (Self { vehicle, heard, dropped }, outbox, talk)
     }
 

@@ -59,7 +59,8 @@ impl Seen {
     /// As other vehicles are told of to a page.
     pub(crate) fn json(&self) -> Value {
         let (phase, is_lost) = self.in_short();
-        let pose = |told: Told| json!({ "x_m": told.place_m.x, "y_m": told.place_m.y, "yaw_deg": 0.0 });
+        let pose =
+            |told: Told| json!({ "x_m": told.place_m.x, "y_m": told.place_m.y, "yaw_deg": 0.0 });
         json!({
             "type": "other",
             "vehicle": self.vehicle,
@@ -167,11 +168,17 @@ mod tests {
         let seen = |ms: u64| {
             let (place_m, deviation_m) = (Vector2::new(1.0, 2.0), 0.1);
             let age = Duration::from_millis(ms);
-            Seen { vehicle, told: Some(Told { presence: Presence::Flies, place_m, deviation_m, age }) }
+            Seen {
+                vehicle,
+                told: Some(Told { presence: Presence::Flies, place_m, deviation_m, age }),
+            }
         };
         assert_eq!(seen(1500).in_short(), ("elsewhere, flies".to_owned(), false));
         assert_eq!(seen(2500).in_short(), ("elsewhere, flies, not heard".to_owned(), true));
-        assert_eq!(Seen { vehicle, told: None }.in_short(), ("elsewhere, not heard".to_owned(), true));
+        assert_eq!(
+            Seen { vehicle, told: None }.in_short(),
+            ("elsewhere, not heard".to_owned(), true)
+        );
         let object = seen(1500).json();
         assert_eq!((&object["pose"]["y_m"], &object["navdata_age_s"]), (&json!(2.0), &json!(0.0)));
         assert_eq!(Seen { vehicle, told: None }.json()["pose"], Value::Null);
@@ -190,10 +197,7 @@ mod tests {
         let totals = Totals {
             told: 3,
             heard: 2,
-            refused: vec![
-                counted(Some(right), Refused::TooOld, 7),
-                counted(None, Refused::Key, 1),
-            ],
+            refused: vec![counted(Some(right), Refused::TooOld, 7), counted(None, Refused::Key, 1)],
         };
         assert_eq!(
             totals.to_string(),

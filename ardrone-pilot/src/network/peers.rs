@@ -201,9 +201,10 @@ impl Peers {
         }
         known.bound.arrived(now, state.sent);
         for echo in state.heard.iter().filter(|echo| echo.session == own) {
-            // Nobody can have held what we have not told yet.
+            // Nobody can have held what we have not told yet, nor for longer than that is ago.
             if echo.sent > stamped || echo.sent + echo.held > now + RATE_ERROR {
-                return Err(Refused::Absurd);
+                known.bound = Bound::default();
+                return Err(Refused::Clock);
             }
             known.bound.answered(now, state.sent, echo.sent, echo.held);
         }
@@ -398,8 +399,16 @@ mod tests {
             (LEFT, String::new(), ("left".parse().ok(), Refused::FlownHere)),
             (RIGHT, changed(&text, "vehicle", json!("left")), (right, Refused::Key)),
             (RIGHT, changed(&text, "system", json!(1)), (right, Refused::OtherFleet)),
-            (RIGHT, changed(&text, "fleet", json!("0000000000000000")), (right, Refused::OtherFleet)),
-            (RIGHT, changed(&text, "session", json!("0000000000000001")), (right, Refused::FlownHere)),
+            (
+                RIGHT,
+                changed(&text, "fleet", json!("0000000000000000")),
+                (right, Refused::OtherFleet),
+            ),
+            (
+                RIGHT,
+                changed(&text, "session", json!("0000000000000001")),
+                (right, Refused::FlownHere),
+            ),
             (RIGHT, changed(&text, "version", json!(2)), (right, Refused::Version(2))),
             (RIGHT, changed(&text, "place_m", json!([1e6, 0])), (right, Refused::Absurd)),
             (RIGHT, text.clone() + &" ".repeat(1024), (right, Refused::TooLong)),
@@ -415,12 +424,15 @@ mod tests {
         let mut pair = Pair::acquainted();
         let text = pair.right_text(1100 * MS);
         let echo = |sent_us: u64, held_us: u64| {
-            let echo = json!([{ "session": "0000000000000001", "sent_us": sent_us, "held_us": held_us }]);
+            let echo =
+                json!([{ "session": "0000000000000001", "sent_us": sent_us, "held_us": held_us }]);
             changed(&text, "heard", echo)
         };
         for text in [echo(1_200_000, 0), echo(1_000_000, 500_000), echo(0, (1 << 53) - 1)] {
-            assert_eq!(pair.left_hears(1110 * MS, &text), Err(Refused::Absurd), "{text}");
+            assert_eq!(pair.left_hears(1110 * MS, &text), Err(Refused::Clock), "{text}");
         }
+        let begun_anew = changed(&text, "heard", json!([]));
+        assert_eq!(pair.left_hears(1110 * MS, &begun_anew), Err(Refused::Unanswered));
         assert!(pair.left_hears(1110 * MS, &text).is_ok());
     }
 
@@ -445,7 +457,8 @@ mod tests {
     fn who_has_left_its_drone_on_the_ground_is_heard_until_another_program_flies_it() {
         let mut pair = Pair::acquainted();
         let at = 1100 * MS + pair.ahead;
-        let stands = Neighbour { presence: Presence::Stands, ..neighbour(2, 900 * MS + pair.ahead, 0.0) };
+        let stands =
+            Neighbour { presence: Presence::Stands, ..neighbour(2, 900 * MS + pair.ahead, 0.0) };
         let text = pair.right.tell(at, 1, stands, true).unwrap();
         assert!(pair.left_hears(1110 * MS, &text).unwrap().is_parked);
         assert_eq!(pair.left.changes(1120 * MS).len(), 1);
@@ -464,8 +477,13 @@ mod tests {
         let text = pair.right_text(9000 * MS);
         // Our clock has not counted seven seconds.
         assert_eq!(pair.left_hears(2010 * MS, &text), Err(Refused::Clock));
-        let text = pair.right_text(9050 * MS);
+        pair.ahead += 7000 * MS;
+        let text = changed(&pair.right_text(2050 * MS), "heard", json!([]));
         assert_eq!(pair.left_hears(2060 * MS, &text), Err(Refused::Unanswered));
+        _ = pair.left_tells(2100 * MS, 5 * MS);
+        let text = pair.right_text(2110 * MS);
+        let heard = pair.left_hears(2120 * MS, &text).unwrap();
+        assert!((15 * MS..16 * MS).contains(&heard.age), "{heard:?}");
     }
 
     #[test]
@@ -475,12 +493,15 @@ mod tests {
         for number in 100..200 {
             let text = changed(&text, "session", json!(format!("{number:016x}")));
             let heard = pair.left_hears(1105 * MS, &text);
-            let expected = if number < 100 + 63 { Refused::TwoPrograms } else { Refused::TooManyPrograms };
+            let expected =
+                if number < 100 + 63 { Refused::TwoPrograms } else { Refused::TooManyPrograms };
             assert_eq!(heard, Err(expected), "{number}");
         }
         assert!(pair.left_hears(1110 * MS, &text).is_ok());
         // All are answered in turn, so also those that are no strangers.
-        let answered: Vec<String> = (0..12).map(|n| pair.left.tell(n * MS + 1200 * MS, 0, neighbour(1, MS, 0.0), false).unwrap()).collect();
+        let answered: Vec<String> = (0..12)
+            .map(|n| pair.left.tell(n * MS + 1200 * MS, 0, neighbour(1, MS, 0.0), false).unwrap())
+            .collect();
         assert!(answered.concat().contains("0000000000000002"));
     }
 

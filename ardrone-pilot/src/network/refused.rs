@@ -17,7 +17,9 @@ pub enum Refused {
     #[error("it cannot be read")]
     Malformed,
     /// Its version is not ours.
-    #[error("it has version {0}, and this program reads version 1: fly all vehicles with one version")]
+    #[error(
+        "it has version {0}, and this program reads version 1: fly all vehicles with one version"
+    )]
     Version(u32),
     /// A number makes no sense.
     #[error("a number in it makes no sense")]

@@ -154,10 +154,8 @@ pub(super) mod tests {
     }
 
     pub(in crate::network) fn two(here: &[&str]) -> Roster {
-        let vehicles =
-            [("left", 1, start(-2.5, 0.0)), ("right", 2, start(2.5, 0.0))].map(|(name, system, start)| {
-                (name.parse().unwrap(), system, start)
-            });
+        let vehicles = [("left", 1, start(-2.5, 0.0)), ("right", 2, start(2.5, 0.0))]
+            .map(|(name, system, start)| (name.parse().unwrap(), system, start));
         let here: Vec<VehicleName> = here.iter().map(|name| name.parse().unwrap()).collect();
         Roster::new("two".parse().unwrap(), vehicles, &here).unwrap()
     }
@@ -195,8 +193,14 @@ pub(super) mod tests {
             Some(["right".to_owned(), "left".to_owned()])
         });
         for key in [
-            "", "/", "ardrone/two/left", "ardrone/two/left/state/", "ardrone/other/left/state",
-            "ardrone/two/LEFT/state", "x/two/left/state", "ardrone/two/left/agent",
+            "",
+            "/",
+            "ardrone/two/left",
+            "ardrone/two/left/state/",
+            "ardrone/other/left/state",
+            "ardrone/two/LEFT/state",
+            "x/two/left/state",
+            "ardrone/two/left/agent",
         ] {
             assert_eq!((roster.of_state_key(key), roster.of_line_key(key)), (None, None), "{key}");
         }

@@ -348,7 +348,10 @@ pub(super) mod tests {
             ("claim", json!({ "to_m": [1001, 0], "first_system": 1, "behind": 0 })),
             ("claim", json!({ "to_m": [0, 0], "first_system": 0, "behind": 0 })),
             ("parked", json!(true)),
-            ("heard", json!([{ "session": "0000000000000001", "sent_us": 1, "held_us": 1_u64 << 60 }])),
+            (
+                "heard",
+                json!([{ "session": "0000000000000001", "sent_us": 1, "held_us": 1_u64 << 60 }]),
+            ),
         ] {
             assert_eq!(decode(key, value.clone()), Err(Unreadable::Absurd), "{key} {value}");
         }
@@ -366,7 +369,9 @@ pub(super) mod tests {
         ] {
             assert_eq!(decode(key, value.clone()), Err(Unreadable::Malformed), "{key} {value}");
         }
-        for text in ["", "[]", "{}", "null", "1e999", "{\"version\":1}", "\u{0}", "{\"version\":-1}"] {
+        for text in
+            ["", "[]", "{}", "null", "1e999", "{\"version\":1}", "\u{0}", "{\"version\":-1}"]
+        {
             assert_eq!(State::decode(text.as_bytes()), Err(Unreadable::Malformed), "{text:?}");
         }
         let text = state().encode().unwrap().replace("-2.5", "1e999");

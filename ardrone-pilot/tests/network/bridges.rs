@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use ardrone_pilot::flight::{Placed, Places, Seat};
 use ardrone_pilot::network::bridge::{Bridge, NetworkConfig, NetworkError};
-use ardrone_pilot::network::{LineError, LONGEST_LINE_BYTES, NoLine, Roster, Talk, WAITING};
+use ardrone_pilot::network::{LONGEST_LINE_BYTES, LineError, NoLine, Roster, Talk, WAITING};
 use ardrone_pilot::runtime::{Runtime, SecondSignal};
 use autopilot::separation::{Neighbour, Presence};
 use autopilot::vehicle::{Start, VehicleName};
@@ -109,7 +109,10 @@ fn states_and_lines_go_both_ways_and_the_last_word_is_how_the_drone_was_left() {
     assert!(programs[0].bridge.take_talk(0).is_none() && programs[0].bridge.take_talk(1).is_none());
     let [to_left, to_right]: [VehicleName; 2] = ["left", "right"].map(|name| name.parse().unwrap());
     let longest = "x".repeat(LONGEST_LINE_BYTES);
-    assert_eq!(left.say(to_right, &(longest.clone() + "x")), Err(LineError::NoLine(NoLine::TooLong)));
+    assert_eq!(
+        left.say(to_right, &(longest.clone() + "x")),
+        Err(LineError::NoLine(NoLine::TooLong))
+    );
     left.say(to_right, "tell held(3)").unwrap();
     left.say(to_right, &longest).unwrap();
     right.say(to_left, "achieve come").unwrap();
@@ -131,7 +134,9 @@ fn states_and_lines_go_both_ways_and_the_last_word_is_how_the_drone_was_left() {
     let foreign = zenoh::Config::from_json5(&zenoh("tcp/127.0.0.1:0", Some(&at))).unwrap();
     let foreign = zenoh::open(foreign).wait().unwrap();
     std::thread::sleep(Duration::from_millis(500));
-    for (from, text) in [("right", "a\nb"), ("left", "a"), ("up", "a"), ("right", &"x".repeat(513)[..])] {
+    for (from, text) in
+        [("right", "a\nb"), ("left", "a"), ("up", "a"), ("right", &"x".repeat(513)[..])]
+    {
         foreign.put(format!("ardrone/two/{from}/agent/left"), text).wait().unwrap();
     }
     for number in 0..WAITING + 9 {
@@ -164,9 +169,16 @@ fn states_and_lines_go_both_ways_and_the_last_word_is_how_the_drone_was_left() {
 /// Makes an authority, and certificates of it for both machines; all have the prefix.
 fn certificates(folder: &Path, prefix: &str) {
     let openssl = |arguments: &str| {
-        let output =
-            Command::new("openssl").current_dir(folder).args(arguments.split(' ')).output().unwrap();
-        assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
+        let output = Command::new("openssl")
+            .current_dir(folder)
+            .args(arguments.split(' '))
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "{arguments}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     };
     openssl(&format!(
         "req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 2 -subj /CN=fleet -keyout {prefix}ca.key -out {prefix}ca.pem"
@@ -187,7 +199,13 @@ fn certificates(folder: &Path, prefix: &str) {
 }
 
 /// The configuration of docs/fleet.md.
-fn with_tls(folder: &Path, prefix: &str, name: &str, listen: &str, connect: Option<&str>) -> String {
+fn with_tls(
+    folder: &Path,
+    prefix: &str,
+    name: &str,
+    listen: &str,
+    connect: Option<&str>,
+) -> String {
     let file = |suffix: &str| folder.join(format!("{prefix}{suffix}")).display().to_string();
     let connect = connect.map(|at| format!("\"{at}\"")).unwrap_or_default();
     let (ca, key, certificate) =
@@ -252,7 +270,11 @@ fn with_passwords_only_who_has_one_is_heard() {
         let at = format!("tcp/127.0.0.1:{}", free_port());
         let configs = [
             written(&folder, "left.json5", &config(&at, None, "left", "apple")),
-            written(&folder, "right.json5", &config("tcp/127.0.0.1:0", Some(&at), "right", password)),
+            written(
+                &folder,
+                "right.json5",
+                &config("tcp/127.0.0.1:0", Some(&at), "right", password),
+            ),
         ];
         let programs = [0, 1].map(|own| Program::open(&runtime, own, &configs[own]).unwrap());
         hear_each_other(&programs, patience)

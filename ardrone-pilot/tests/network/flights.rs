@@ -34,6 +34,11 @@ struct Room {
 
 impl Room {
     fn new(protocol: &str) -> Option<Self> {
+        Self::with(protocol, str::to_owned)
+    }
+
+    /// With a change of the fleet's file.
+    fn with(protocol: &str, change: impl FnOnce(&str) -> String) -> Option<Self> {
         let mut lab = Lab::new()?;
         lab.wire(50, 0.1);
         let folder = tempfile::tempdir().unwrap();
@@ -47,10 +52,11 @@ impl Room {
             lab.on(end, || MockDrone::start_in(&air, &world, Ports::LOOPBACK)).unwrap()
         });
         // Both machines read the same file.
-        let mut text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
+        let mut text = change(&std::fs::read_to_string(fleets().join("two.toml")).unwrap());
         for (mock, address) in mocks.iter().zip(["192.168.1.10", "192.168.1.11"]) {
             let Ports { at, navdata, control, .. } = mock.ports();
-            let ports = format!("at_port = {at}\nnavdata_port = {navdata}\ncontrol_port = {control}");
+            let ports =
+                format!("at_port = {at}\nnavdata_port = {navdata}\ncontrol_port = {control}");
             let drone = format!("drone = \"{address}\"");
             assert!(text.contains(&drone));
             text = text.replace(&drone, &format!("drone = \"127.0.0.1\"\n{ports}"));
@@ -93,7 +99,11 @@ impl Room {
     fn watch(&mut self, mut is_so: impl FnMut(&mut Self) -> bool) {
         let start = Instant::now();
         while !is_so(self) {
-            assert!(start.elapsed() < PATIENCE, "{:?}", self.mocks.each_ref().map(MockDrone::truth));
+            assert!(
+                start.elapsed() < PATIENCE,
+                "{:?}",
+                self.mocks.each_ref().map(MockDrone::truth)
+            );
             if let [Some(left), Some(right)] = self.places_m() {
                 self.nearest_m = self.nearest_m.min((left - right).norm());
             }
@@ -143,7 +153,8 @@ fn two_change_places_over_a_bad_network() {
             let network = &said.last().unwrap()["network"];
             let [told, heard] = ["told", "heard"].map(|key| network[key].as_u64().unwrap());
             assert!(told > 200 && heard > 100, "{network}");
-            for why in ["malformed", "absurd", "clock", "flown_here", "other_fleet", "two_programs"] {
+            for why in ["malformed", "absurd", "clock", "flown_here", "other_fleet", "two_programs"]
+            {
                 assert_eq!(refused(said, why), 0, "{network}");
             }
         }
@@ -168,6 +179,37 @@ fn a_partition_in_flight_brings_nobody_together() {
     }
 }
 
+/// TCP keeps what it could not deliver, and brings it when it can: seconds of states in a moment.
+#[test]
+fn what_a_partition_held_back_is_not_taken_for_news() {
+    let without_plans = |text: &str| {
+        text.lines().filter(|line| !line.starts_with("plan =")).collect::<Vec<_>>().join("\n")
+    };
+    let Some(mut room) = Room::with("tcp", without_plans) else { return };
+    let came = |said: &[Value]| {
+        said.iter().filter(|it| it["type"] == "network" && it["heard"] == true).count()
+    };
+    let patience = Duration::from_secs(60);
+    for pilot in &room.pilots {
+        pilot.until(patience, |object| object["type"] == "network" && object["heard"] == true);
+    }
+    room.lab.wire(50, 1.0);
+    room.watch_for(Duration::from_secs(6));
+    room.lab.wire(50, 0.0);
+    room.watch(|room| room.pilots.iter().all(|pilot| came(&pilot.said()) == 2));
+    room.watch_for(Duration::from_secs(1));
+    room.pilots.iter_mut().for_each(Pilot::quit);
+    let (ended, _) = room.until_the_end();
+    let mut late = 0;
+    for (status, said) in &ended {
+        assert_eq!(*status, Some(0));
+        assert!(has_told(said, "heard", &json!(false)));
+        late += refused(said, "too_old");
+        eprintln!("{}", said.last().unwrap()["network"]);
+    }
+    assert!(late > 10, "{late}");
+}
+
 /// Its drone lands by itself, and nobody hears of it any more.
 #[test]
 fn a_program_that_is_killed_in_flight_brings_nobody_together() {
@@ -186,7 +228,10 @@ fn a_program_that_is_killed_in_flight_brings_nobody_together() {
 #[test]
 fn the_example_in_python_prints_the_states() {
     let Some(python) = std::env::var_os("ZENOH_PYTHON") else {
-        assert!(std::env::var_os("CI").is_none(), "ZENOH_PYTHON names no Python with eclipse-zenoh");
+        assert!(
+            std::env::var_os("CI").is_none(),
+            "ZENOH_PYTHON names no Python with eclipse-zenoh"
+        );
         eprintln!("skipped: ZENOH_PYTHON names no Python with eclipse-zenoh");
         return;
     };
@@ -199,7 +244,11 @@ fn the_example_in_python_prints_the_states() {
     let pilot = Pilot::start(command.arg("--net").arg(&net));
     pilot.until(Duration::from_secs(60), |object| object["airborne"] == true);
     let script: PathBuf = fleets().join("watch.py");
-    let output = Command::new(python).arg(script).args(["two", "--connect", &at, "--count", "60"]).output().unwrap();
+    let output = Command::new(python)
+        .arg(script)
+        .args(["two", "--connect", &at, "--count", "60"])
+        .output()
+        .unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(said.lines().count(), 60, "{said}");

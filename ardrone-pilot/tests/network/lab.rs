@@ -20,7 +20,11 @@ pub(crate) struct Lab {
 
 fn ip(arguments: &[&str]) {
     let output = Command::new("ip").args(arguments).output().unwrap();
-    assert!(output.status.success(), "ip {arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "ip {arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 impl Lab {
@@ -41,7 +45,8 @@ impl Lab {
             return None;
         }
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let names = ["one", "two"].map(|end| format!("ardrone-{}-{number}-{end}", std::process::id()));
+        let names =
+            ["one", "two"].map(|end| format!("ardrone-{}-{number}-{end}", std::process::id()));
         for name in &names {
             ip(&["netns", "add", name]);
             ip(&["-n", name, "link", "set", "lo", "up"]);
@@ -66,7 +71,9 @@ impl Lab {
 
     /// From now on each packet takes so long, and this part of them is lost.
     pub(crate) fn wire(&mut self, delay_ms: u32, loss: f64) {
-        writeln!(self.wire.stdin.as_mut().unwrap(), "{delay_ms} {loss}").unwrap();
+        // At once: the other end takes what it reads for a line.
+        let line = format!("{delay_ms} {loss}\n");
+        self.wire.stdin.as_mut().unwrap().write_all(line.as_bytes()).unwrap();
     }
 
     /// A program on one of the machines.
@@ -81,7 +88,8 @@ impl Lab {
         let namespace = File::open(Path::new("/run/netns").join(&self.names[end])).unwrap();
         std::thread::scope(|scope| {
             let there = scope.spawn(move || {
-                move_into_link_name_space(namespace.as_fd(), Some(LinkNameSpaceType::Network)).unwrap();
+                move_into_link_name_space(namespace.as_fd(), Some(LinkNameSpaceType::Network))
+                    .unwrap();
                 task()
             });
             there.join().unwrap()

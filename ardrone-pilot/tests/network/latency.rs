@@ -52,9 +52,13 @@ fn one_end() {
         let count = ways_us.len();
         let mut ways_us: Vec<u64> = ways_us.into_iter().map(|(way_us, _)| way_us).collect();
         ways_us.sort_unstable();
-        let at = |part: f64| ways_us.get((count as f64 * part) as usize).map_or(f64::NAN, |us| *us as f64 / 1000.0);
+        let at = |part: f64| {
+            ways_us.get((count as f64 * part) as usize).map_or(f64::NAN, |us| *us as f64 / 1000.0)
+        };
         let (median, p99, most) = (at(0.5), at(0.99), at(1.0 - 1e-9));
-        println!("result: {count} heard in {time_s:.1} s, median {median:.2} ms, p99 {p99:.2} ms, at most {most:.1} ms");
+        println!(
+            "result: {count} heard in {time_s:.1} s, median {median:.2} ms, p99 {p99:.2} ms, at most {most:.1} ms"
+        );
     } else {
         let count: u32 = task.parse().unwrap();
         std::thread::sleep(Duration::from_secs(3));
@@ -78,7 +82,8 @@ fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
     let start = |end: usize, task: &str| {
         let mut command = lab.map_or_else(|| Command::new(&this), |lab| lab.command(end, &this));
         command.args(["--ignored", "--nocapture", "--exact", "latency::one_end"]);
-        let config = configs[end].replace("mode:", "scouting: { multicast: { enabled: false } }, mode:");
+        let config =
+            configs[end].replace("mode:", "scouting: { multicast: { enabled: false } }, mode:");
         command.env(TASK, format!("{task} {config}")).stdout(Stdio::piped()).spawn().unwrap()
     };
     let mut hears = start(0, "hears");

@@ -57,7 +57,13 @@ fn lie(session: &zenoh::Session, until: &AtomicBool) {
             (RIGHT, changed("version", json!(0))),
             (RIGHT, changed("fleet", json!("0123456789abcdef"))),
             (RIGHT, changed("place_m", json!([1e30, 0]))),
-            (RIGHT, changed("heard", json!([{ "session": "0000000000000bad", "sent_us": 1, "held_us": 1 }]))),
+            (
+                RIGHT,
+                changed(
+                    "heard",
+                    json!([{ "session": "0000000000000bad", "sent_us": 1, "held_us": 1 }]),
+                ),
+            ),
             (RIGHT, text.clone() + &" ".repeat(2000)),
             (RIGHT, "x".repeat(1_000_000)),
             (RIGHT, "\u{0}\u{1b}[2J".to_owned()),

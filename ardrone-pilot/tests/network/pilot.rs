@@ -36,8 +36,12 @@ pub(crate) struct Pilot {
 
 impl Pilot {
     pub(crate) fn start(command: &mut Command) -> Self {
-        let mut child =
-            command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::inherit()).spawn().unwrap();
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::inherit())
+            .spawn()
+            .unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap()).lines();
         let said = Arc::<Mutex<Vec<Value>>>::default();
         let read = Arc::clone(&said);
@@ -65,6 +69,11 @@ impl Pilot {
             assert!(start.elapsed() < patience, "{:?}", self.said.lock().unwrap().last());
             std::thread::sleep(Duration::from_millis(20));
         }
+    }
+
+    /// Ends its standard input: one without a plan quits.
+    pub(crate) fn quit(&mut self) {
+        drop(self.child.stdin.take());
     }
 
     pub(crate) fn kill(&mut self) {
