@@ -1,5 +1,5 @@
 //! How long a state is under way: a measurement, not a test of a limit. The numbers of docs/fleet.md are from here:
-//! `cargo test --release -p ardrone-pilot --features zenoh --test network -- --ignored --nocapture how_long`
+//! `cargo test -p ardrone-pilot --features zenoh --test network -- --ignored --nocapture how_long`
 
 use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
@@ -89,7 +89,7 @@ fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
     let mut hears = start(0, "hears");
     let mut sends = start(1, &count.to_string());
     let lines = BufReader::new(hears.stdout.take().unwrap()).lines().map_while(Result::ok);
-    let result = lines.filter_map(|line| Some(line.split_once("result: ")?.1.to_owned())).last();
+    let result = lines.filter_map(|line| Some(line.split_once("ways: ")?.1.to_owned())).last();
     sends.wait().unwrap();
     hears.wait().unwrap();
     println!("{what}, {protocol}, {count} sent: {}", result.unwrap());
