@@ -1,12 +1,12 @@
 //! The vehicles of a fleet that are flown by programs elsewhere: `--net` and `--vehicle`.
 //!
-//! Without the feature `zenoh` there is no [`Connection`]: nothing can make one.
+//! Without the feature `zenoh` there is no `Connection`: nothing can make one.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use autopilot::vehicle::VehicleName;
-use crossbeam_channel::Receiver;
+use crossbeam_channel::{Receiver, never};
 
 use crate::fleet::Fleet;
 use crate::flight::Places;
@@ -19,6 +19,9 @@ use crate::network::bridge::{Bridge, NetworkConfig, NetworkError};
 use std::convert::Infallible as Bridge;
 #[cfg(not(feature = "zenoh"))]
 use std::convert::Infallible as NetworkConfig;
+
+/// Interval at which displays are told of those vehicles.
+const LOOK: Duration = Duration::from_millis(200);
 
 /// Why nobody elsewhere can be heard.
 #[derive(Debug, thiserror::Error)]
@@ -61,17 +64,62 @@ pub(super) fn roster(fleet: &Fleet, here: &[VehicleName]) -> Result<Roster, Else
     Ok(Roster::new(fleet.name, vehicles, here)?)
 }
 
-/// What is seen of the vehicles that are flown elsewhere.
-pub(super) fn seen(roster: &Roster, places: &Places) -> impl Iterator<Item = Seen> {
-    roster.places(false).map(|place| {
-        let told = places.read(place).map(|placed| Told {
-            presence: placed.neighbour.presence,
-            place_m: placed.neighbour.place_m,
-            deviation_m: placed.neighbour.deviation_m,
-            age: if placed.is_parked { Duration::ZERO } else { placed.at.elapsed() },
+/// The vehicles that are flown elsewhere, as displays show them. There may be none, and no network.
+pub(super) struct Elsewhere {
+    roster: Roster,
+    places: Places,
+    connection: Option<Connection>,
+    begun: Instant,
+    next_look: Instant,
+}
+
+impl Elsewhere {
+    /// Begins to tell of the vehicles that are flown here, and to hear the others.
+    pub(super) fn begin(
+        net: Option<Configured>,
+        runtime: &Runtime,
+        roster: &Roster,
+        places: Places,
+    ) -> Result<Self, ElsewhereError> {
+        let open = |net: Configured| net.open(runtime, roster.clone(), places.clone());
+        let connection = net.map(open).transpose()?;
+        let now = Instant::now();
+        Ok(Self { roster: roster.clone(), places, connection, begun: now, next_look: now })
+    }
+
+    /// What there is to tell; nothing without a network.
+    pub(super) fn news(&self) -> Receiver<News> {
+        self.connection.as_ref().map_or_else(never, Connection::news)
+    }
+
+    /// Since the beginning.
+    pub(super) fn time(&self) -> Duration {
+        self.begun.elapsed()
+    }
+
+    /// What is seen of them, five times a second; nothing in between.
+    pub(super) fn look(&mut self) -> Vec<Seen> {
+        let now = Instant::now();
+        if now < self.next_look {
+            return Vec::new();
+        }
+        self.next_look = now + LOOK;
+        let seen = self.roster.places(false).map(|place| {
+            let told = self.places.read(place).map(|placed| Told {
+                presence: placed.neighbour.presence,
+                place_m: placed.neighbour.place_m,
+                deviation_m: placed.neighbour.deviation_m,
+                age: if placed.is_parked { Duration::ZERO } else { placed.at.elapsed() },
+            });
+            Seen { vehicle: self.roster.vehicles[place].name, told }
         });
-        Seen { vehicle: roster.vehicles[place].name, told }
-    })
+        seen.collect()
+    }
+
+    /// Tells how the vehicles were left, and ends.
+    pub(super) fn end(self) -> Option<Totals> {
+        self.connection.map(Connection::end)
+    }
 }
 
 /// A configuration of the network that was read.
@@ -81,7 +129,9 @@ impl Configured {
     /// Reads it.
     pub(super) fn read(path: &Path) -> Result<Self, ElsewhereError> {
         #[cfg(feature = "zenoh")]
-        return Ok(Self(NetworkConfig::read(path)?));
+        {
+            Ok(Self(NetworkConfig::read(path)?))
+        }
         #[cfg(not(feature = "zenoh"))]
         {
             _ = path;
@@ -89,15 +139,16 @@ impl Configured {
         }
     }
 
-    /// Begins to tell of the vehicles that are flown here, and to hear the others.
-    pub(super) fn open(
+    fn open(
         self,
         runtime: &Runtime,
         roster: Roster,
         places: Places,
     ) -> Result<Connection, ElsewhereError> {
         #[cfg(feature = "zenoh")]
-        return Ok(Connection(Bridge::open(runtime, self.0, roster, places)?));
+        {
+            Ok(Connection(Bridge::open(runtime, self.0, roster, places)?))
+        }
         #[cfg(not(feature = "zenoh"))]
         {
             _ = (runtime, roster, places);
@@ -107,22 +158,30 @@ impl Configured {
 }
 
 /// The connection to the others.
-pub(super) struct Connection(Bridge);
+struct Connection(Bridge);
 
 impl Connection {
     /// What there is to tell.
-    pub(super) fn news(&self) -> Receiver<News> {
+    fn news(&self) -> Receiver<News> {
         #[cfg(feature = "zenoh")]
-        return self.0.news();
+        {
+            self.0.news()
+        }
         #[cfg(not(feature = "zenoh"))]
-        match self.0 {}
+        {
+            match self.0 {}
+        }
     }
 
     /// Tells how the vehicles were left, and ends.
-    pub(super) fn end(self) -> Totals {
+    fn end(self) -> Totals {
         #[cfg(feature = "zenoh")]
-        return self.0.end();
+        {
+            self.0.end()
+        }
         #[cfg(not(feature = "zenoh"))]
-        match self.0 {}
+        {
+            match self.0 {}
+        }
     }
 }

@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{Plan, Step};
@@ -13,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::arguments::FlyFleet;
 use super::crew::Crew;
-use super::elsewhere::{self, Configured, Connection};
+use super::elsewhere::{self, Configured, Elsewhere};
 use super::fly::{
     SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, print_object, record_to,
     since_epoch,
@@ -38,9 +37,6 @@ use crate::video::Video;
 
 /// Exit statuses of flights, the worst first; 0 is none of them.
 const WORST_FIRST: [u8; 8] = [50, 40, 10, 30, 60, 130, 20, 1];
-
-/// Interval at which displays are told of vehicles that are flown elsewhere.
-const LOOK: Duration = Duration::from_millis(200);
 
 /// Why the vehicles of a fleet cannot be flown.
 #[derive(Debug, thiserror::Error)]
@@ -113,28 +109,17 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         progress.print_line(line);
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
-    let (mut flying, mut shown) = (Vec::new(), Vec::new());
-    let begun = Instant::now();
     let seats: Vec<Seat> = Seat::in_one_room(fleet.members.len()).collect();
-    let places = seats[0].places();
-    let connect = |net: Configured| net.open(&runtime, roster.clone(), places.clone());
-    let connection = net.map(connect).transpose()?;
+    let mut elsewhere = Elsewhere::begin(net, &runtime, &roster, seats[0].places())?;
     let seats = seats.into_iter().zip(&roster.vehicles);
     let seats = seats.filter_map(|(seat, entry)| entry.is_here.then_some(seat));
-    for (prepared, seat) in prepared.into_iter().zip(seats) {
-        let Prepared { member, mock, drone, station, recorder, recording } = prepared;
-        let beside = Beside { recorder, seat: Some(seat) };
+    let begin = prepared.into_iter().zip(seats);
+    let begun = begin.map(|(one, seat)| {
         // Those that have begun land if one cannot.
-        let flight = Flight::start(&runtime, member.plan.clone(), &member.config, &drone, beside)?;
-        let controls = flight.controls();
-        let mavlink = station.and_then(|station| station.open(&runtime, &controls, &mut progress));
-        let video = listener.is_some().then(|| camera(&runtime, member, mock.as_ref()));
-        flying.push(Under { member, flight, mavlink, video });
-        let start = member.config.estimator.start.unwrap_or_default();
-        let (steps, truths) = (Vec::new(), Vec::new());
-        let flies_a_plan = member.plan.is_some();
-        shown.push(Shown { mock, start, flies_a_plan, recording, steps, truths });
-    }
+        one.begin(&runtime, seat, listener.is_some(), &mut progress)
+    });
+    let (flying, mut shown): (Vec<_>, Vec<_>) =
+        begun.collect::<Result<Vec<_>, FlightError>>()?.into_iter().unzip();
     let open = |listener: Listener| {
         let page = page_config(arguments, &fleet, &shown);
         listener.open(&runtime, page, flying.iter().map(Under::on_page).collect())
@@ -156,21 +141,16 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         watch.warn(&format!("no orders can be read: {error}"));
     }
     let mut ended = Vec::new();
-    let network = connection.as_ref().map_or_else(never, Connection::news);
-    let mut next_look = begun;
-    pass_on(flying, &network, |news| {
-        if Instant::now() >= next_look {
-            next_look = Instant::now() + LOOK;
-            for seen in elsewhere::seen(&roster, &places) {
-                if let Some(browser) = &browser {
-                    browser.show_elsewhere(&seen);
-                }
-                watch.show_elsewhere(&seen);
+    pass_on(flying, &elsewhere.news(), |news| {
+        for seen in elsewhere.look() {
+            if let Some(browser) = &browser {
+                browser.show_elsewhere(&seen);
             }
+            watch.show_elsewhere(&seen);
         }
         let (place, news) = match news {
             News::Network(told) => {
-                let at = begun.elapsed();
+                let at = elsewhere.time();
                 if arguments.interfaces.json {
                     print_object(&told.json(at));
                 }
@@ -207,8 +187,27 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     });
     drop(keys);
     watch.end();
-    let network = connection.map(Connection::end);
+    let totals = elsewhere.end();
     ended.sort_by_key(|(place, _)| *place);
+    let status = print_ends(arguments, ended, &shown)?;
+    if arguments.interfaces.json {
+        let mut end = json!({ "type": "fleet_end", "exit_status": status });
+        if let Some(totals) = &totals {
+            end["network"] = totals.json();
+        }
+        print_object(&end);
+    } else if let Some(totals) = &totals {
+        terminal::print(totals);
+    }
+    Ok(status)
+}
+
+/// Says how the flights ended; returns the worst exit status.
+fn print_ends(
+    arguments: &FlyFleet,
+    ended: Vec<(usize, Result<End, FlightError>)>,
+    shown: &[Shown],
+) -> Result<u8, FlightError> {
     let mut statuses = Vec::new();
     for (place, end) in ended {
         let end = end?;
@@ -221,17 +220,30 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         }
         statuses.push(end.status);
     }
-    let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
-    if arguments.interfaces.json {
-        let mut end = json!({ "type": "fleet_end", "exit_status": status });
-        if let Some(totals) = &network {
-            end["network"] = totals.json();
-        }
-        print_object(&end);
-    } else if let Some(totals) = &network {
-        terminal::print(totals);
+    Ok(WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0))
+}
+
+impl<'a> Prepared<'a> {
+    /// Begins its flight, with what its camera sees for a page.
+    fn begin(
+        self,
+        runtime: &Runtime,
+        seat: Seat,
+        has_page: bool,
+        progress: &mut Progress,
+    ) -> Result<(Under<'a>, Shown), FlightError> {
+        let Prepared { member, mock, drone, station, recorder, recording } = self;
+        let beside = Beside { recorder, seat: Some(seat) };
+        let flight = Flight::start(runtime, member.plan.clone(), &member.config, &drone, beside)?;
+        let controls = flight.controls();
+        let mavlink = station.and_then(|station| station.open(runtime, &controls, progress));
+        let video = has_page.then(|| camera(runtime, member, mock.as_ref()));
+        let start = member.config.estimator.start.unwrap_or_default();
+        let (steps, truths) = (Vec::new(), Vec::new());
+        let flies_a_plan = member.plan.is_some();
+        let shown = Shown { mock, start, flies_a_plan, recording, steps, truths };
+        Ok((Under { member, flight, mavlink, video }, shown))
     }
-    Ok(status)
 }
 
 impl Under<'_> {

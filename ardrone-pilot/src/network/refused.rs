@@ -51,7 +51,7 @@ pub enum Refused {
     /// More programs tell of themselves than are remembered.
     #[error("too many programs tell of this fleet")]
     TooManyPrograms,
-    /// A line is for nobody who is flown here, or more arrive than are read.
+    /// More lines of agents arrive than are read.
     #[error("more lines of agents arrive than are read")]
     Full,
 }

@@ -2,7 +2,11 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
-#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+#![allow(
+    clippy::print_stderr,
+    clippy::print_stdout,
+    reason = "what is skipped, and measured, is said"
+)]
 
 mod bridges;
 mod flights;
