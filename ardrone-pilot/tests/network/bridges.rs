@@ -13,7 +13,7 @@ use autopilot::vehicle::{Start, VehicleName};
 use nalgebra::Vector2;
 use zenoh::Wait as _;
 
-use crate::flights::free_port;
+use crate::flights::own_address;
 use crate::pilot::zenoh;
 
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -93,11 +93,11 @@ fn written(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
 #[test]
 fn states_and_lines_go_both_ways_and_the_last_word_is_how_the_drone_was_left() {
     let folder = tempfile::tempdir().unwrap();
-    let at = format!("tcp/127.0.0.1:{}", free_port());
+    let at = format!("tcp/{}", own_address());
     let runtime = Runtime::start(SecondSignal::IsPassedOn).unwrap();
     let configs = [
         written(&folder, "left.json5", &zenoh(&at, None)),
-        written(&folder, "right.json5", &zenoh("tcp/127.0.0.1:0", Some(&at))),
+        written(&folder, "right.json5", &zenoh(&format!("tcp/{}", own_address()), Some(&at))),
     ];
     let mut programs = [0, 1].map(|own| Program::open(&runtime, own, &configs[own]).unwrap());
     assert!(hear_each_other(&programs, PATIENCE));
@@ -131,7 +131,8 @@ fn states_and_lines_go_both_ways_and_the_last_word_is_how_the_drone_was_left() {
     assert_eq!(next(&left), ("right".to_owned(), "achieve come".to_owned()));
 
     // Somebody says more than is read, and what is no line, also in the name of who is flown there.
-    let foreign = zenoh::Config::from_json5(&zenoh("tcp/127.0.0.1:0", Some(&at))).unwrap();
+    let foreign =
+        zenoh::Config::from_json5(&zenoh(&format!("tcp/{}", own_address()), Some(&at))).unwrap();
     let foreign = zenoh::open(foreign).wait().unwrap();
     std::thread::sleep(Duration::from_millis(500));
     for (from, text) in
@@ -238,13 +239,21 @@ fn with_certificates_only_who_has_one_of_the_fleets_authority_is_heard() {
     certificates(folder.path(), "foreign-");
     let runtime = Runtime::start(SecondSignal::IsPassedOn).unwrap();
     let hear = |prefix: &str, patience| {
-        let at = format!("tls/127.0.0.1:{}", free_port());
+        // The address that the certificates name.
+        let port = 20_000 + std::process::id() % 10_000 + u32::from(!prefix.is_empty());
+        let at = format!("tls/127.0.0.1:{port}");
         let configs = [
             written(&folder, "left.json5", &with_tls(folder.path(), "", "left", &at, None)),
             written(
                 &folder,
                 "right.json5",
-                &with_tls(folder.path(), prefix, "right", "tls/127.0.0.1:0", Some(&at)),
+                &with_tls(
+                    folder.path(),
+                    prefix,
+                    "right",
+                    &format!("tls/{}", own_address()),
+                    Some(&at),
+                ),
             ),
         ];
         let programs = [0, 1].map(|own| Program::open(&runtime, own, &configs[own]).unwrap());
@@ -267,13 +276,13 @@ fn with_passwords_only_who_has_one_is_heard() {
         zenoh(listen, connect).replace("listen:", &auth)
     };
     let hear = |password: &str, patience| {
-        let at = format!("tcp/127.0.0.1:{}", free_port());
+        let at = format!("tcp/{}", own_address());
         let configs = [
             written(&folder, "left.json5", &config(&at, None, "left", "apple")),
             written(
                 &folder,
                 "right.json5",
-                &config("tcp/127.0.0.1:0", Some(&at), "right", password),
+                &config(&format!("tcp/{}", own_address()), Some(&at), "right", password),
             ),
         ];
         let programs = [0, 1].map(|own| Program::open(&runtime, own, &configs[own]).unwrap());

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
 use ardrone_pilot::fleet::Fleet;
@@ -179,9 +180,9 @@ fn a_partition_in_flight_brings_nobody_together() {
     }
 }
 
-/// TCP keeps what it could not deliver, and brings it when it can: seconds of states in a moment.
+/// TCP keeps what it could not deliver, and may bring it when it can; that is not taken for news.
 #[test]
-fn what_a_partition_held_back_is_not_taken_for_news() {
+fn after_a_partition_they_hear_each_other_again() {
     let without_plans = |text: &str| {
         text.lines().filter(|line| !line.starts_with("plan =")).collect::<Vec<_>>().join("\n")
     };
@@ -200,14 +201,14 @@ fn what_a_partition_held_back_is_not_taken_for_news() {
     room.watch_for(Duration::from_secs(1));
     room.pilots.iter_mut().for_each(Pilot::quit);
     let (ended, _) = room.until_the_end();
-    let mut late = 0;
     for (status, said) in &ended {
         assert_eq!(*status, Some(0));
         assert!(has_told(said, "heard", &json!(false)));
-        late += refused(said, "too_old");
         eprintln!("{}", said.last().unwrap()["network"]);
+        for why in ["clock", "absurd", "malformed", "two_programs"] {
+            assert_eq!(refused(said, why), 0, "{:?}", said.last());
+        }
     }
-    assert!(late > 10, "{late}");
 }
 
 /// Its drone lands by itself, and nobody hears of it any more.
@@ -237,7 +238,7 @@ fn the_example_in_python_prints_the_states() {
     };
     let folder = tempfile::tempdir().unwrap();
     let net = folder.path().join("net.json5");
-    let at = format!("tcp/127.0.0.1:{}", free_port());
+    let at = format!("tcp/{}", own_address());
     std::fs::write(&net, zenoh(&at, None)).unwrap();
     let mut command = Command::new(program());
     command.arg("fleet").arg(fleets().join("two.toml")).args(["--mock", "--json", "--no-log"]);
@@ -260,7 +261,9 @@ fn the_example_in_python_prints_the_states() {
     assert_eq!(status, Some(0));
 }
 
-/// A port that nobody has just now.
-pub(crate) fn free_port() -> u16 {
-    std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
+/// An address of this machine with a port that no other test has.
+pub(crate) fn own_address() -> String {
+    static NUMBER: AtomicU8 = AtomicU8::new(1);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    format!("127.{}.{number}.1:7447", 64 + std::process::id() % 64)
 }

@@ -8,7 +8,6 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use zenoh::Wait as _;
 use zenoh::qos::CongestionControl;
 
-use crate::flights::free_port;
 use crate::lab::{ADDRESSES, Lab};
 use crate::pilot::zenoh;
 
@@ -77,7 +76,7 @@ fn one_end() {
 
 fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
     let addresses = if lab.is_some() { ADDRESSES } else { ["127.0.0.1"; 2] };
-    let at = format!("{protocol}/{}:{}", addresses[0], free_port());
+    let at = format!("{protocol}/{}:7448", addresses[0]);
     let configs = [zenoh(&at, None), zenoh(&format!("{protocol}/{}:0", addresses[1]), Some(&at))];
     let this = std::env::current_exe().unwrap();
     let start = |end: usize, task: &str| {

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use zenoh::Wait as _;
 
 use crate::bridges::{roster, stands};
-use crate::flights::free_port;
+use crate::flights::own_address;
 use crate::pilot::{Pilot, fleets, has_told, program, refused, zenoh};
 
 const LEFT: &str = "ardrone/two/left/state";
@@ -22,12 +22,13 @@ const RIGHT: &str = "ardrone/two/right/state";
 fn left() -> (Pilot, zenoh::Session, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let net = folder.path().join("net.json5");
-    let at = format!("tcp/127.0.0.1:{}", free_port());
+    let at = format!("tcp/{}", own_address());
     std::fs::write(&net, zenoh(&at, None)).unwrap();
     let mut command = Command::new(program());
     command.arg("fleet").arg(fleets().join("two.toml")).args(["--mock", "--json", "--no-log"]);
     let pilot = Pilot::start(command.args(["--vehicle", "left", "--net"]).arg(&net));
-    let config = zenoh::Config::from_json5(&zenoh("tcp/127.0.0.1:0", Some(&at))).unwrap();
+    let config =
+        zenoh::Config::from_json5(&zenoh(&format!("tcp/{}", own_address()), Some(&at))).unwrap();
     (pilot, zenoh::open(config).wait().unwrap(), folder)
 }
 
