@@ -82,8 +82,7 @@ fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
     let start = |end: usize, task: &str| {
         let mut command = lab.map_or_else(|| Command::new(&this), |lab| lab.command(end, &this));
         command.args(["--ignored", "--nocapture", "--exact", "latency::one_end"]);
-        let config =
-            configs[end].replace("mode:", "scouting: { multicast: { enabled: false } }, mode:");
+        let config = &configs[end];
         command.env(TASK, format!("{task} {config}")).stdout(Stdio::piped()).spawn().unwrap()
     };
     let mut hears = start(0, "hears");

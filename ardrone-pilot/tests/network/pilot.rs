@@ -19,11 +19,11 @@ pub(crate) fn fleets() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../fleets"))
 }
 
-/// A configuration of Zenoh: where it listens, and whom it connects to.
+/// A configuration of Zenoh: where it listens, and whom it connects to. By multicast tests would find each other.
 pub(crate) fn zenoh(listen: &str, connect: Option<&str>) -> String {
     let connect = connect.map(|at| format!("\"{at}\"")).unwrap_or_default();
     format!(
-        "{{ mode: \"peer\", listen: {{ endpoints: [\"{listen}\"] }}, connect: {{ endpoints: [{connect}] }} }}"
+        "{{ mode: \"peer\", scouting: {{ multicast: {{ enabled: false }} }}, listen: {{ endpoints: [\"{listen}\"] }}, connect: {{ endpoints: [{connect}] }} }}"
     )
 }
 
