@@ -8,6 +8,7 @@
 //! - [`video`] passes on what the camera sees.
 //! - [`drive`] runs the vehicle in simulated time with a simulated drone; [`simulation`] flies a plan so.
 //! - [`browser`] shows the flight in a browser, [`cli`] in the terminal, [`mavlink`] to ground stations and programs of others.
+//! - [`network`] is how vehicles of one fleet on several machines hear each other.
 //! - [`settings`] reads `pilot.toml`.
 #![forbid(unsafe_code)]
 #![expect(
@@ -27,6 +28,7 @@ mod flights;
 mod flown_path;
 mod json;
 pub mod mavlink;
+pub mod network;
 mod ordered;
 pub mod plan_drawing;
 pub mod realtime;

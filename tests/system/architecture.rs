@@ -176,6 +176,20 @@ fn the_mavlink_vehicle_depends_on_nothing_that_can_do_input_or_output() {
     assert!(core.is_some_and(|line| line.ends_with(" embedded")), "{features}");
 }
 
+/// Zenoh is what a program has that was built with the feature, and no other.
+#[test]
+fn without_its_feature_the_program_has_no_zenoh() {
+    let is_zenoh = |name: &str| name == "zenoh" || name.starts_with("zenoh-");
+    for package in ["ardrone-pilot", "system-tests", "xtask"] {
+        let tree =
+            cargo(&["tree", "--package", package, "--edges", "normal,build", "--prefix", "none"]);
+        let mut names = tree.lines().filter_map(|line| line.split(' ').next());
+        assert!(!names.any(is_zenoh), "{package}: {tree}");
+    }
+    let tree = ["tree", "--package", "ardrone-pilot", "--features", "zenoh", "--prefix", "none"];
+    assert!(cargo(&tree).lines().any(|line| line.starts_with("zenoh v")));
+}
+
 /// Every build script that uses the translator compiles its dependencies.
 #[test]
 fn the_translator_needs_no_command_line_and_no_files() {
@@ -202,6 +216,23 @@ fn the_mock_drone_is_pure_without_its_features() {
     for name in ["clap", "tokio", "tracing-subscriber"] {
         assert!(!tree.lines().any(|line| line.split(' ').next() == Some(name)), "{name}: {tree}");
     }
+}
+
+/// What is believed of a network is decided without one.
+#[test]
+fn only_the_bridge_of_the_network_does_input_or_output() {
+    let mut looked_at = 0;
+    for path in sources(Path::new("../ardrone-pilot/src/network")) {
+        if path.ends_with("bridge.rs") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        assert_eq!(impure_word(code), None, "{}", path.display());
+        assert!(!code.contains("zenoh::") && !code.contains("flight::"), "{}", path.display());
+        looked_at += 1;
+    }
+    assert!(looked_at >= 8, "{looked_at}");
 }
 
 /// Source files of a folder, except tests.

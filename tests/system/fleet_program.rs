@@ -246,6 +246,27 @@ fn who_does_not_hear_all_others_stays_on_the_ground() {
     assert_eq!(output.status.code(), Some(10));
 }
 
+/// A program that is built with the feature `zenoh` is tried in `ardrone-pilot/tests/network`.
+#[test]
+fn other_machines_are_not_heard_without_the_feature_for_it() {
+    let files = crossing();
+    let fly = |arguments: &[&str]| {
+        let output = files.fly().args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (status, said) = fly(&["--net", "zenoh.json5", "--vehicle", "left"]);
+    assert_eq!(status, Some(2));
+    assert!(said.contains("cargo build --release -p ardrone-pilot --features zenoh"), "{said}");
+    let (status, said) = fly(&["--net", "zenoh.json5", "--vehicle", "middle"]);
+    assert_eq!(status, Some(20));
+    assert!(
+        said.contains("there is no vehicle middle in this fleet: it has left, right"),
+        "{said}"
+    );
+    // Nobody would ever hear the other one.
+    assert_eq!(fly(&["--vehicle", "left"]).0, Some(2));
+}
+
 fn host_of(url: &str) -> &str {
     url.trim_start_matches("http://").trim_end_matches('/')
 }

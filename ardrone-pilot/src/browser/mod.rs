@@ -20,6 +20,7 @@ mod snapshot;
 
 use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use autopilot::plan::Plan;
 use autopilot::vehicle::VehicleName;
@@ -31,6 +32,7 @@ use self::server::{Server, Vehicle};
 pub use self::settings_file::SettingsFile;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
+use crate::network::{News, Seen};
 use crate::runtime::Runtime;
 use crate::video::VideoFeed;
 
@@ -76,6 +78,8 @@ pub struct PageConfig {
     pub recordings: Vec<PathBuf>,
     /// The settings, which apply from the next start on.
     pub settings: SettingsFile,
+    /// All vehicles of a fleet, also those that are flown elsewhere; without any there are only those that are shown.
+    pub fleet: Vec<VehicleName>,
 }
 
 /// A bound address, reserved before the flight begins.
@@ -105,12 +109,13 @@ impl Listener {
 
     /// Starts serving the page about these vehicles, of which a browser shows one, the first unless it asks for another.
     pub fn open(self, runtime: &Runtime, page: PageConfig, vehicles: Vec<Shown>) -> Browser {
-        let PageConfig { plans, flights, recordings, settings } = page;
-        let names: Vec<_> = vehicles.iter().map(|shown| shown.planning.config.name).collect();
+        let PageConfig { plans, flights, recordings, settings, fleet } = page;
+        let here: Vec<_> = vehicles.iter().map(|shown| shown.planning.config.name).collect();
+        let fleet = if fleet.is_empty() { here.clone() } else { fleet };
         let plannings = vehicles.iter().map(|shown| shown.planning.clone()).collect();
         let files = Files::new(plannings, plans, flights, recordings, settings);
         let seen = vehicles.into_iter().map(|Shown { plan, drone, planning, controls, video }| {
-            let snapshot = Snapshot::new(plan.as_ref(), &planning.config, &drone, &names);
+            let snapshot = Snapshot::new(plan.as_ref(), &planning.config, &drone, &fleet, &here);
             Vehicle::new(snapshot, planning, controls, video)
         });
         let vehicles = seen.collect();
@@ -129,6 +134,20 @@ impl Browser {
     /// Publishes a message of a flight; never blocks.
     pub fn show(&self, message: &Message) {
         self.server.publish(message.vehicle, |snapshot| snapshot.take_in(message));
+    }
+
+    /// Publishes what happens on the network, on the pages of all vehicles.
+    pub fn tell_all(&self, at: Duration, told: &News) {
+        self.server.publish_to_all(|snapshot| snapshot.tell(at, told.warns(), &told.to_string()));
+    }
+
+    /// Publishes what is seen of a vehicle that is flown elsewhere.
+    pub fn show_elsewhere(&self, seen: &Seen) {
+        let object = seen.json();
+        self.server.publish_to_all(|snapshot| {
+            snapshot.take_in_other(seen.vehicle, &object);
+            object.clone()
+        });
     }
 
     /// Publishes the end of a vehicle's flight.

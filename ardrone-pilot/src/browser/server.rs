@@ -159,6 +159,17 @@ impl Server {
     }
 }
 
+impl Server {
+    /// Updates the snapshots of all vehicles, each for its viewers.
+    pub(super) fn publish_to_all(&self, change: impl Fn(&mut Snapshot) -> Value) {
+        for vehicle in &self.shared.vehicles {
+            let mut stage = vehicle.stage();
+            let object = change(&mut stage.snapshot);
+            stage.send(&object);
+        }
+    }
+}
+
 impl Drop for Server {
     fn drop(&mut self) {
         // Dropping the sender ends the viewers' streams after the last message.

@@ -30,8 +30,9 @@ pub(super) struct Snapshot {
     steps: Vec<Step>,
     limits: FlightLimits,
     vehicle: VehicleName,
-    /// All vehicles of the page.
+    /// All vehicles, and those that the page can show in full.
     fleet: Vec<VehicleName>,
+    here: Vec<VehicleName>,
     /// What the others do.
     others: BTreeMap<VehicleName, Value>,
     /// The drone that is flown, for people.
@@ -52,6 +53,7 @@ impl Snapshot {
         config: &VehicleConfig,
         drone: &str,
         fleet: &[VehicleName],
+        here: &[VehicleName],
     ) -> Self {
         let name = plan.map_or("", Plan::name);
         Self {
@@ -59,6 +61,7 @@ impl Snapshot {
             limits: config.limits,
             vehicle: config.name,
             fleet: fleet.to_vec(),
+            here: here.to_vec(),
             others: BTreeMap::new(),
             drone: printable(drone).into_owned(),
             name: printable(name).into_owned(),
@@ -100,21 +103,27 @@ impl Snapshot {
             }
             Telemetry::Readiness(_) => self.ready = object.clone(),
             Telemetry::Ended(outcome, _) => {
-                let event = json!({
-                    "type": "event",
-                    "t_s": at.as_secs_f64(),
-                    // What was ordered surprises nobody.
-                    "warning": !matches!(outcome, Outcome::Completed | Outcome::Interrupted),
-                    "text": outcome.to_string(),
-                    "step": null,
-                    "command": null,
-                });
-                self.remember(&event);
-                return event;
+                // What was ordered surprises nobody.
+                let warns = !matches!(outcome, Outcome::Completed | Outcome::Interrupted);
+                return self.tell(*at, warns, &outcome.to_string());
             }
             Telemetry::Mission { .. } | Telemetry::Waypoint(_) => {}
         }
         object
+    }
+
+    /// Adds an event; returns the JSON object to send to browsers.
+    pub(super) fn tell(&mut self, at: Duration, warns: bool, text: &str) -> Value {
+        let event = json!({
+            "type": "event",
+            "t_s": at.as_secs_f64(),
+            "warning": warns,
+            "text": text,
+            "step": null,
+            "command": null,
+        });
+        self.remember(&event);
+        event
     }
 
     /// Another vehicle does this now, or its agent says it.
@@ -184,6 +193,7 @@ impl Snapshot {
             "version": env!("CARGO_PKG_VERSION"),
             "vehicle": self.vehicle,
             "fleet": self.fleet,
+            "here": self.here,
             "others": self.others.values().collect::<Vec<_>>(),
             "drone": self.drone,
             "plan": self.name,
@@ -242,6 +252,7 @@ mod tests {
             Some(&plan),
             &VehicleConfig::default(),
             "192.168.1.1",
+            &[VehicleName::default()],
             &[VehicleName::default()],
         );
         for step in 0..EVENTS + 5 {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, VIDEO_PORT};
 use autopilot::plan;
+use autopilot::vehicle::VehicleName;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -175,6 +176,12 @@ pub(super) struct FlyFleet {
     /// Fly simulated drones, started on free loopback ports
     #[arg(long)]
     pub(super) mock: bool,
+    /// Hear the vehicles that are flown on other machines, by a configuration of Zenoh; with `--features zenoh`
+    #[arg(long, value_name = "ZENOH.json5")]
+    pub(super) net: Option<PathBuf>,
+    /// Fly this vehicle here, and leave the others to other machines; it may be given several times
+    #[arg(long, value_name = "NAME", requires = "net")]
+    pub(super) vehicle: Vec<VehicleName>,
     /// Where z = 0 of the plans is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,

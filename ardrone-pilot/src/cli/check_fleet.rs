@@ -189,8 +189,8 @@ impl fmt::Display for Report<'_> {
                 self.mission_of(member)
             )?;
         }
-        if let Err(shared) = own_drones(self.fleet) {
-            writeln!(f, "only with simulated drones: {shared}")?;
+        if let Err(shared) = own_drones(self.fleet.members.iter()) {
+            writeln!(f, "only with simulated drones, or on different machines: {shared}")?;
         }
         let verdict = match self.short().count() {
             0 => "can be flown".to_owned(),

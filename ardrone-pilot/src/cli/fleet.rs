@@ -6,12 +6,14 @@ use std::path::PathBuf;
 use ardrone_link::DroneAddress;
 use autopilot::plan::Step;
 use autopilot::vehicle::{Start, Telemetry, VehicleName};
-use crossbeam_channel::bounded;
+use crossbeam_channel::{Receiver, bounded, never, select};
+use mission_agent::MissionAgent;
 use mock_drone::server::{Air, MockDrone, Ports};
 use serde_json::{Value, json};
 
 use super::arguments::FlyFleet;
 use super::crew::Crew;
+use super::elsewhere::{self, Configured, Elsewhere};
 use super::fly::{
     SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, print_object, record_to,
     since_epoch,
@@ -28,6 +30,7 @@ use crate::fleet::{Fleet, FleetError, Member};
 use crate::flight::{Beside, Content, FinishedFlight, Flight, FlightError, Message, Seat};
 use crate::json;
 use crate::mavlink::MavlinkServer;
+use crate::network;
 use crate::recording::{Header, Recorded, Recorder, Recording, file_name};
 use crate::runtime::{Runtime, SecondSignal};
 use crate::timing::TimingReport;
@@ -55,6 +58,7 @@ pub(super) enum MembersError {
 /// A vehicle before its flight.
 struct Prepared<'a> {
     member: &'a Member,
+    agent: Option<MissionAgent>,
     mock: Option<MockDrone>,
     drone: DroneAddress,
     station: Option<Station>,
@@ -85,15 +89,21 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     let fleet = Fleet::read(&arguments.fleet, arguments.z_origin())?;
     let plain = arguments.interfaces.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
-    let names = fleet.members.iter().map(|member| member.config.name);
+    let roster = elsewhere::roster(&fleet, &arguments.vehicle)?;
+    let here: Vec<&Member> = roster.places(true).map(|place| &fleet.members[place]).collect();
+    let names = here.iter().map(|member| member.config.name);
     let mut progress = Progress::new(prompt.clone(), plain, names);
     if !fleet.warnings.is_empty() {
         progress.print_line(&fleet.warnings.to_string());
     }
     if !arguments.mock {
-        own_drones(&fleet)?;
+        own_drones(here.iter().copied())?;
     }
-    let prepared = prepare(&fleet, arguments, &mut progress)?;
+    let net = arguments.net.as_deref().map(Configured::read).transpose()?;
+    for place in roster.places(false) {
+        progress.print_line(&format!("{}: flown elsewhere", roster.vehicles[place].name));
+    }
+    let prepared = prepare(&fleet, &here, arguments, &mut progress)?;
     let listener = arguments.interfaces.ui.map(Listener::bind).transpose()?;
     let stations: Vec<String> =
         listener.iter().map(|listener| format!("watch it at {}", listener.url())).collect();
@@ -101,55 +111,69 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         progress.print_line(line);
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
-    let (mut flying, mut shown) = (Vec::new(), Vec::new());
     let names = fleet.members.iter().map(|member| member.config.name);
-    for (prepared, seat) in prepared.into_iter().zip(Seat::in_one_room(names)) {
-        let Prepared { member, mock, drone, station, recorder, recording } = prepared;
-        let agent = member.new_agent().map_err(FleetError::from)?;
-        let beside = Beside { recorder, seat: Some(seat), agent };
+    let seats: Vec<Seat> = Seat::in_one_room(names).collect();
+    let mut elsewhere = Elsewhere::begin(net, &runtime, &roster, seats[0].places())?;
+    let seats = seats.into_iter().zip(&roster.vehicles);
+    let seats = seats.filter_map(|(seat, entry)| entry.is_here.then_some(seat));
+    let begin = prepared.into_iter().zip(seats);
+    let begun = begin.map(|(one, seat)| {
         // Those that have begun land if one cannot.
-        let flight = Flight::start(&runtime, member.plan.clone(), &member.config, &drone, beside)?;
-        let controls = flight.controls();
-        let mavlink = station.and_then(|station| station.open(&runtime, &controls, &mut progress));
-        let video = listener.is_some().then(|| camera(&runtime, member, mock.as_ref()));
-        flying.push(Under { member, flight, mavlink, video });
-        let start = member.config.estimator.start.unwrap_or_default();
-        let (steps, truths) = (Vec::new(), Vec::new());
-        let flies_a_plan = member.has_a_mission();
-        shown.push(Shown { mock, start, flies_a_plan, recording, steps, truths });
-    }
+        one.begin(&runtime, seat, listener.is_some(), &mut progress)
+    });
+    let (flying, mut shown): (Vec<_>, Vec<_>) =
+        begun.collect::<Result<Vec<_>, FlightError>>()?.into_iter().unzip();
     let open = |listener: Listener| {
         let page = page_config(arguments, &fleet, &shown);
         listener.open(&runtime, page, flying.iter().map(Under::on_page).collect())
     };
     let browser = listener.map(open);
     let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
-    let limits = fleet.members[0].config.limits;
+    let limits = here[0].config.limits;
     let wanted = !plain && !arguments.interfaces.json && std::io::stdin().is_terminal();
-    let all_limits = fleet.members.iter().map(|member| member.config.limits);
+    let all_limits = here.iter().map(|member| member.config.limits);
     let screen = || Screen::start(all_limits, crew.clone(), warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let keys = Keys::start(crew.clone(), &limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
         watch.print_line(keys::HELP_OF_FLEET);
-    } else if let Some((lines, at_end)) = input(arguments, &fleet)
+    } else if let Some((lines, at_end)) = input(arguments, &here)
         && let Err(error) = program::read_orders(lines, at_end, &limits, crew)
     {
         watch.warn(&format!("no orders can be read: {error}"));
     }
     let mut ended = Vec::new();
-    pass_on(flying, |place, news| {
+    pass_on(flying, &elsewhere.news(), |news| {
+        for seen in elsewhere.look() {
+            if let Some(browser) = &browser {
+                browser.show_elsewhere(&seen);
+            }
+            watch.show_elsewhere(&seen);
+        }
+        let (place, news) = match news {
+            News::Network(told) => {
+                let at = elsewhere.time();
+                if arguments.interfaces.json {
+                    print_object(&told.json(at));
+                }
+                if let Some(browser) = &browser {
+                    browser.tell_all(at, &told);
+                }
+                return watch.tell(at, &told);
+            }
+            News::Of(place, news) => (place, news),
+        };
         let one = &mut shown[place];
         match news {
-            News::Message(message) => {
+            OfOne::Message(message) => {
                 one.take_in(&message, arguments.interfaces.json);
                 if let Some(browser) = &browser {
                     browser.show(&message);
                 }
                 watch.show(&message);
             }
-            News::End(end) => {
+            OfOne::End(end) => {
                 let end = one.end(*end);
                 if let (Some(browser), Ok(end)) = (&browser, &end) {
                     browser.end(end.finished.vehicle, &end.json());
@@ -166,7 +190,27 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     });
     drop(keys);
     watch.end();
+    let totals = elsewhere.end();
     ended.sort_by_key(|(place, _)| *place);
+    let status = print_ends(arguments, ended, &shown)?;
+    if arguments.interfaces.json {
+        let mut end = json!({ "type": "fleet_end", "exit_status": status });
+        if let Some(totals) = &totals {
+            end["network"] = totals.json();
+        }
+        print_object(&end);
+    } else if let Some(totals) = &totals {
+        terminal::print(totals);
+    }
+    Ok(status)
+}
+
+/// Says how the flights ended; returns the worst exit status.
+fn print_ends(
+    arguments: &FlyFleet,
+    ended: Vec<(usize, Result<End, FlightError>)>,
+    shown: &[Shown],
+) -> Result<u8, FlightError> {
     let mut statuses = Vec::new();
     for (place, end) in ended {
         let end = end?;
@@ -179,11 +223,30 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         }
         statuses.push(end.status);
     }
-    let status = WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0);
-    if arguments.interfaces.json {
-        print_object(&json!({ "type": "fleet_end", "exit_status": status }));
+    Ok(WORST_FIRST.into_iter().find(|status| statuses.contains(status)).unwrap_or(0))
+}
+
+impl<'a> Prepared<'a> {
+    /// Begins its flight, with what its camera sees for a page.
+    fn begin(
+        self,
+        runtime: &Runtime,
+        seat: Seat,
+        has_page: bool,
+        progress: &mut Progress,
+    ) -> Result<(Under<'a>, Shown), FlightError> {
+        let Prepared { member, agent, mock, drone, station, recorder, recording } = self;
+        let beside = Beside { recorder, seat: Some(seat), agent };
+        let flight = Flight::start(runtime, member.plan.clone(), &member.config, &drone, beside)?;
+        let controls = flight.controls();
+        let mavlink = station.and_then(|station| station.open(runtime, &controls, progress));
+        let video = has_page.then(|| camera(runtime, member, mock.as_ref()));
+        let start = member.config.estimator.start.unwrap_or_default();
+        let (steps, truths) = (Vec::new(), Vec::new());
+        let flies_a_plan = member.has_a_mission();
+        let shown = Shown { mock, start, flies_a_plan, recording, steps, truths };
+        Ok((Under { member, flight, mavlink, video }, shown))
     }
-    Ok(status)
 }
 
 impl Under<'_> {
@@ -227,6 +290,7 @@ fn camera(runtime: &Runtime, member: &Member, mock: Option<&MockDrone>) -> Video
 
 /// What the page offers besides the flights.
 fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConfig {
+    let names = fleet.members.iter().map(|member| member.config.name);
     let recordings = shown.iter().filter_map(|one| one.recording.as_ref());
     PageConfig {
         plans: arguments.interfaces.plans.clone(),
@@ -237,13 +301,16 @@ fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConf
             is_used: fleet.config.is_some(),
             in_effect: fleet.settings.clone(),
         },
+        fleet: names.collect(),
     }
 }
 
 /// Each vehicle needs a drone of its own.
-pub(super) fn own_drones(fleet: &Fleet) -> Result<(), MembersError> {
-    for (number, member) in fleet.members.iter().enumerate() {
-        let same = fleet.members.iter().take(number).find(|other| other.drone == member.drone);
+pub(super) fn own_drones<'a>(
+    members: impl Iterator<Item = &'a Member> + Clone,
+) -> Result<(), MembersError> {
+    for (number, member) in members.clone().enumerate() {
+        let same = members.clone().take(number).find(|other| other.drone == member.drone);
         if let Some(other) = same {
             let vehicles = [other.config.name, member.config.name];
             return Err(MembersError::OneDrone { vehicles, host: member.drone.host.clone() });
@@ -254,7 +321,8 @@ pub(super) fn own_drones(fleet: &Fleet) -> Result<(), MembersError> {
 
 /// Starts all that can fail before the first drone flies.
 fn prepare<'a>(
-    fleet: &'a Fleet,
+    fleet: &Fleet,
+    here: &[&'a Member],
     arguments: &FlyFleet,
     progress: &mut Progress,
 ) -> Result<Vec<Prepared<'a>>, CommandError> {
@@ -263,7 +331,7 @@ fn prepare<'a>(
     // Simulated drones feel and disturb each other.
     let air = Air::default();
     let mut all = Vec::new();
-    for member in &fleet.members {
+    for member in here {
         let name = member.config.name;
         let mock = if arguments.mock {
             let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
@@ -295,7 +363,8 @@ fn prepare<'a>(
             .map(|folder| folder.join(file_name(begun, format_args!("{}-{name}", fleet.name))));
         let record = |path: PathBuf| record_to(&path, header, member.plan.as_ref());
         let (recorder, recording) = path.map(record).transpose()?.unzip();
-        all.push(Prepared { member, mock, drone, station, recorder, recording });
+        let agent = member.new_agent().map_err(FleetError::from)?;
+        all.push(Prepared { member, agent, mock, drone, station, recorder, recording });
     }
     Ok(all)
 }
@@ -310,8 +379,8 @@ fn beginning(member: &Member, drone: &str) -> String {
 }
 
 /// How standard input is read if no keys are.
-fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
-    let waits = !fleet.members.iter().all(Member::has_a_mission);
+fn input(arguments: &FlyFleet, here: &[&Member]) -> Option<(Lines, AtEnd)> {
+    let waits = !here.iter().all(|member| member.has_a_mission());
     let at_end =
         if waits && !arguments.interfaces.mavlink.is_given() { AtEnd::Quit } else { AtEnd::GoOn };
     match (arguments.interfaces.json, waits) {
@@ -322,9 +391,17 @@ fn input(arguments: &FlyFleet, fleet: &Fleet) -> Option<(Lines, AtEnd)> {
     }
 }
 
-/// What comes of a flight.
+/// What there is to show.
 #[allow(clippy::large_enum_variant, reason = "the large one is the usual one")]
 enum News {
+    /// Of the vehicle with this place among those that are flown here.
+    Of(usize, OfOne),
+    Network(network::News),
+}
+
+/// What comes of a flight.
+#[allow(clippy::large_enum_variant, reason = "the large one is the usual one")]
+enum OfOne {
     Message(Message),
     End(Box<Result<Left, FlightError>>),
 }
@@ -335,26 +412,38 @@ struct Left {
     has_quit: bool,
 }
 
-/// Passes on what comes of all flights until their ends, each with the place of its vehicle.
+/// Passes on what comes of all flights until their ends, and of the network meanwhile.
 ///
 /// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flights nevertheless: they are told by
 /// the threads that wait for them.
-fn pass_on(flying: Vec<Under<'_>>, mut show: impl FnMut(usize, News)) {
-    let (sender, news) = bounded::<(usize, News)>(UNSHOWN * flying.len());
+fn pass_on(flying: Vec<Under<'_>>, network: &Receiver<network::News>, mut show: impl FnMut(News)) {
+    let (sender, news) = bounded::<News>(UNSHOWN * flying.len());
     std::thread::scope(|scope| {
         for (place, under) in flying.into_iter().enumerate() {
             let sender = sender.clone();
             scope.spawn(move || {
                 let end = Box::new(under.until_its_end(|message| {
-                    sender.try_send((place, News::Message(message))).is_ok()
+                    sender.try_send(News::Of(place, OfOne::Message(message))).is_ok()
                 }));
                 // It is received until all have sent theirs.
-                _ = sender.send((place, News::End(end)));
+                _ = sender.send(News::Of(place, OfOne::End(end)));
             });
         }
         drop(sender);
-        for (place, news) in &news {
-            show(place, news);
+        let never = never();
+        let mut network = network;
+        loop {
+            select! {
+                recv(news) -> told => match told {
+                    Ok(told) => show(told),
+                    // All have ended.
+                    Err(_) => break,
+                },
+                recv(network) -> told => match told {
+                    Ok(told) => show(News::Network(told)),
+                    Err(_) => network = &never,
+                },
+            }
         }
     });
 }

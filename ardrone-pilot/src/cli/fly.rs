@@ -26,6 +26,7 @@ use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile, Show
 use crate::flight::{Beside, Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
+use crate::network;
 use crate::recording::{self, Header, Recorder, Recording};
 use crate::runtime::{Runtime, SecondSignal};
 use crate::settings::Settings;
@@ -319,6 +320,19 @@ impl Watch {
         }
     }
 
+    /// Something happens on the network.
+    pub(super) fn tell(&mut self, at: Duration, told: &network::News) {
+        let line = format!("{:6.1} s {told}", at.as_secs_f64());
+        if told.warns() { self.warn(&line) } else { self.print_line(&line) }
+    }
+
+    /// What is seen of a vehicle that is flown elsewhere; lines tell only of what changes.
+    pub(super) fn show_elsewhere(&mut self, seen: &network::Seen) {
+        if let Self::Screen(screen) = self {
+            screen.show_elsewhere(seen);
+        }
+    }
+
     pub(super) fn show(&mut self, message: &Message) {
         match self {
             Self::Lines(progress) => progress.show(message),
@@ -399,6 +413,7 @@ fn page_config(arguments: &Fly, settings: &Settings, recording: Option<&Recordin
             is_used: arguments.config.is_some(),
             in_effect: settings.clone(),
         },
+        fleet: Vec::new(),
     }
 }
 

@@ -4,6 +4,7 @@ mod arguments;
 mod check;
 mod check_fleet;
 mod crew;
+mod elsewhere;
 mod fleet;
 mod fly;
 mod keys;
@@ -27,6 +28,7 @@ use clap_complete::Shell;
 use mock_drone::server::ServerError;
 
 use self::arguments::{Arguments, Command};
+use self::elsewhere::ElsewhereError;
 use self::fleet::MembersError;
 use self::mavlink::MavlinkArgumentError;
 use self::screen::Warnings;
@@ -59,6 +61,8 @@ enum CommandError {
     Fleet(#[from] FleetError),
     #[error(transparent)]
     Members(#[from] MembersError),
+    #[error(transparent)]
+    Elsewhere(#[from] ElsewhereError),
     #[error("--config, --tags and --tag are for plans: a fleet says them in its file")]
     OfPlans,
     #[error("{path}")]
@@ -99,6 +103,7 @@ impl CommandError {
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
             | Self::Replay(_) => 20,
             Self::Video(ExportError::Format { .. }) | Self::OfPlans => 2,
+            Self::Elsewhere(error) => error.exit_status(),
             Self::MavlinkArguments(error) => error.exit_status(),
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_)

@@ -25,6 +25,7 @@ use super::crew::Crew;
 use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::{Content, Message};
+use crate::network::Seen;
 
 /// Minimum size in columns and rows; smaller terminals get lines.
 const LEAST: (u16, u16) = (70, 20);
@@ -70,7 +71,8 @@ impl Screen {
             before(panic);
         }));
         let views = limits.into_iter().map(|limits| View::new(&limits));
-        let views = Views { all: crew.names().zip(views).collect(), shown: 0 };
+        let views =
+            Views { all: crew.names().zip(views).collect(), elsewhere: Vec::new(), shown: 0 };
         let mut screen = Self { terminal, area, views, crew, warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)
@@ -107,6 +109,15 @@ impl Screen {
         // Changes between two status messages need no redraw of their own.
         if matches!(message.content, Content::Telemetry(_, Telemetry::Status(_), _)) {
             self.draw();
+        }
+    }
+
+    /// Takes in what is seen of a vehicle that is flown elsewhere; it is drawn with the next status.
+    pub(super) fn show_elsewhere(&mut self, seen: &Seen) {
+        let is_it = |known: &&mut Seen| known.vehicle == seen.vehicle;
+        match self.views.elsewhere.iter_mut().find(is_it) {
+            Some(known) => *known = *seen,
+            None => self.views.elsewhere.push(*seen),
         }
     }
 

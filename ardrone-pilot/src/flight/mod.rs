@@ -36,7 +36,7 @@ pub use self::orders::Controls;
 use self::orders::Orders;
 pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
-pub use self::room::Seat;
+pub use self::room::{Placed, Places, Seat};
 use self::said::SaidLast;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;

@@ -1,6 +1,7 @@
 //! The vehicles of one program in one room: each leaves where it was last, and takes what the others have left.
 //!
 //! Ticks never wait for each other: a place that another one is just writing or reading is passed over until the next tick.
+//! Vehicles of other programs have places like all others; who hears them writes those ([`Places`]).
 
 use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
@@ -21,6 +22,37 @@ struct Told {
     neighbour: Neighbour,
     /// Its program has ended with the drone on the ground: it stands there.
     is_parked: bool,
+}
+
+/// The places of a room, for what passes them on to other programs, and writes those of vehicles that are flown there.
+#[derive(Debug, Clone)]
+pub struct Places(Arc<[Mutex<Option<Told>>]>);
+
+/// What is at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// When it was there.
+    pub at: Instant,
+    /// What it tells; its own `at` is by another clock.
+    pub neighbour: Neighbour,
+    /// Its flight has ended, and it stays there.
+    pub is_parked: bool,
+}
+
+impl Places {
+    /// What the vehicle with this number has told last. It waits for its place, which nobody holds for long.
+    pub fn read(&self, number: usize) -> Option<Placed> {
+        let told = *self.0.get(number)?.lock().unwrap_or_else(PoisonError::into_inner);
+        told.map(|Told { at, neighbour, is_parked }| Placed { at, neighbour, is_parked })
+    }
+
+    /// A vehicle that is flown by another program is heard.
+    pub fn write(&self, number: usize, Placed { at, neighbour, is_parked }: Placed) {
+        if let Some(place) = self.0.get(number) {
+            let told = Told { at, neighbour, is_parked };
+            *place.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+        }
+    }
 }
 
 /// A vehicle's place in a room.
@@ -64,6 +96,11 @@ impl Seat {
     /// Something that was said to the agent.
     pub(super) fn next_line(&self) -> Option<Line> {
         self.mail.try_recv().ok()
+    }
+
+    /// All places of its room.
+    pub fn places(&self) -> Places {
+        Places(Arc::clone(&self.room))
     }
 
     /// Tells the others; times count from `start`.
@@ -188,6 +225,25 @@ mod tests {
             drop(in_use);
         });
         assert_eq!(seats[1].hear(start, 50 * MS).next(), Some(at(1, 50, Presence::Stands)));
+    }
+
+    #[test]
+    fn who_is_flown_elsewhere_is_heard_like_all_others() {
+        let mut seats: Vec<Seat> = in_one_room(2);
+        let (start, places) = (Instant::now(), seats[0].places());
+        assert_eq!(places.read(0), None);
+        seats[0].tell(start, at(1, 700, Presence::Flies));
+        let told = places.read(0).unwrap();
+        assert_eq!((told.at, told.is_parked), (start + 700 * MS, false));
+        let there =
+            Placed { at: start + 650 * MS, neighbour: at(2, 5, Presence::Flies), is_parked: false };
+        places.write(1, there);
+        assert_eq!(seats[0].hear(start, 900 * MS).next(), Some(at(2, 650, Presence::Flies)));
+        assert_eq!(seats[0].hear(start, 930 * MS).next(), None, "nothing is new");
+        places.write(1, Placed { is_parked: true, ..there });
+        assert_eq!(seats[0].hear(start, 960 * MS).next(), Some(at(2, 960, Presence::Flies)));
+        places.write(2, there);
+        assert_eq!(places.read(2), None);
     }
 
     #[test]

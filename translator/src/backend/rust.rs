@@ -219,13 +219,12 @@ fn shims(writer: &mut Writer, program: &Program) {
                     .line(format!("let {name} = unsafe {{ core::ffi::CStr::from_ptr({name}) }};"));
             }
         }
-        match messages::sent(program, basic) {
-            Some(message) => messages::pass_on(writer, &message),
-            None => {
-                let arguments: Vec<String> = (0..basic.parameters.len()).map(argument).collect();
-                let method = snake_case(&basic.name.text);
-                writer.line(format!("environment.{method}({})", arguments.join(", ")));
-            }
+        if let Some(message) = messages::sent(program, basic) {
+            messages::pass_on(writer, &message);
+        } else {
+            let arguments: Vec<String> = (0..basic.parameters.len()).map(argument).collect();
+            let method = snake_case(&basic.name.text);
+            writer.line(format!("environment.{method}({})", arguments.join(", ")));
         }
         writer.close(&format!("}}){semicolon}"));
         writer.close("}");

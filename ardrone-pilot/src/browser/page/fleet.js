@@ -38,6 +38,8 @@ const fleet = (() => {
       button.style.setProperty("--colour", colour(name));
       button.append(Object.assign(document.createElement("b"), { textContent: name }), " ", document.createElement("span"));
       button.onclick = () => choose(name);
+      // Flown by another program, which has a page of its own.
+      button.disabled = !message.here.includes(name);
       button.ariaPressed = String(name === message.vehicle);
       items.set(name, button);
       if (name === message.vehicle) continue;

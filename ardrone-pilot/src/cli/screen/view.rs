@@ -23,6 +23,7 @@ use super::super::progress::{STALE, in_short, is_heard, phase};
 use super::{WARNING, tags, texts};
 use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
+use crate::network::Seen;
 use crate::timing::TickHealth;
 
 /// Capacity of the lists of events and decisions.
@@ -193,6 +194,8 @@ fn decision(status: &Status) -> String {
 pub(super) struct Views {
     /// At least one.
     pub(super) all: Vec<(VehicleName, View)>,
+    /// Those that are flown elsewhere: they cannot be chosen.
+    pub(super) elsewhere: Vec<Seen>,
     pub(super) shown: usize,
 }
 
@@ -200,7 +203,7 @@ impl Views {
     /// One vehicle alone.
     #[cfg(test)]
     pub(super) fn alone(view: &View) -> Self {
-        Self { all: vec![(VehicleName::default(), view.clone())], shown: 0 }
+        Self { all: vec![(VehicleName::default(), view.clone())], elsewhere: Vec::new(), shown: 0 }
     }
 
     pub(super) fn shown(&self) -> &View {
@@ -210,12 +213,19 @@ impl Views {
     /// Marks and places of the others.
     fn others(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         let others = self.all.iter().enumerate().filter(|(place, _)| *place != self.shown);
-        others.filter_map(|(place, (_, view))| Some(((place + 1).to_string(), view.status?.pose?)))
+        let others = others
+            .filter_map(|(place, (_, view))| Some(((place + 1).to_string(), view.status?.pose?)));
+        let elsewhere = self.elsewhere.iter().filter_map(|seen| {
+            let place_m = seen.told?.place_m;
+            let pose = Pose { x_m: place_m.x, y_m: place_m.y, ..Pose::default() };
+            Some((seen.vehicle.to_string(), pose))
+        });
+        others.chain(elsewhere)
     }
 
     /// All vehicles of several, with the keys that choose them, on as many lines as they need.
     fn list(&self, columns: usize) -> Vec<Line<'_>> {
-        if self.all.len() == 1 {
+        if self.all.len() == 1 && self.elsewhere.is_empty() {
             return Vec::new();
         }
         let items = self.all.iter().enumerate().map(|(place, (name, view))| {
@@ -226,8 +236,13 @@ impl Views {
             }
             Span::styled(format!(" {} {name} {text} ", place + 1), style)
         });
+        let elsewhere = self.elsewhere.iter().map(|seen| {
+            let (text, ill) = seen.in_short();
+            let style = if ill { Style::new().fg(WARNING) } else { Style::new() };
+            Span::styled(format!("   {} {text} ", seen.vehicle), style)
+        });
         let mut lines: Vec<Line<'_>> = Vec::new();
-        for item in items {
+        for item in items.chain(elsewhere) {
             match lines.last_mut().filter(|line| line.width() + item.width() <= columns) {
                 Some(line) => line.push_span(item),
                 None => lines.push(Line::from(item)),

@@ -167,7 +167,11 @@ fn a_fleet_is_shown_with_one_vehicle_in_full() {
         view.take_in(&message(Duration::from_secs(9), status, TickHealth::default()));
         (name.parse().unwrap(), view)
     };
-    let mut views = Views { all: vec![named("left", -1.0), named("right", 0.2)], shown: 1 };
+    let mut views = Views {
+        all: vec![named("left", -1.0), named("right", 0.2)],
+        elsewhere: Vec::new(),
+        shown: 1,
+    };
     let lost = Status { navdata_age: Some(Duration::from_secs(2)), ..status(-1.0) };
     views.all[0].1.status = Some(lost);
     let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
