@@ -6,7 +6,7 @@ use arrayvec::{ArrayString, ArrayVec};
 use kinematics::Pose;
 
 /// Longest line between agents, in bytes.
-pub const MAX_LINE: usize = 256;
+pub const MAX_LINE: usize = 192;
 
 /// Most lines that an agent says in a step.
 const MAX_SAID: usize = 64;
@@ -43,6 +43,7 @@ pub(crate) enum Wanted {
 }
 
 /// What an agent senses.
+#[allow(clippy::struct_excessive_bools, reason = "each is a sense of its own")]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sensed {
     pub(crate) now_ms: i64,

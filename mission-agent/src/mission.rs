@@ -69,6 +69,9 @@ impl MissionAgent {
     ///
     /// # Errors
     /// [`NoAgent`] if there is none, or the vehicle is none of its peers.
+    ///
+    /// # Panics
+    /// If the plan language has no commands any more to take off and to land.
     pub fn new(
         name: &str,
         vehicle: &str,
@@ -185,7 +188,6 @@ impl MissionAgent {
         let mut orders = ArrayVec::new();
         let is_new = self.ordered != Some(wanted);
         match wanted {
-            Wanted::Keep | Wanted::Finish => return orders,
             Wanted::TakeOff if vehicle.is_at_rest() && !status.airborne => {
                 orders.push(OperatorOrder::Append(self.take_off.clone()));
                 orders.push(OperatorOrder::Start { when_ready: true });
@@ -197,7 +199,7 @@ impl MissionAgent {
                 }
             }
             Wanted::FlyTo(place) if flying && is_new => {
-                orders.push(OperatorOrder::GoTo(place_of(place)))
+                orders.push(OperatorOrder::GoTo(place_of(place)));
             }
             Wanted::Follow(place) if flying => {
                 let follows = status.manual == Some(ManualControl::Setpoints)
@@ -216,6 +218,7 @@ impl MissionAgent {
                     orders.push(OperatorOrder::Resume);
                 }
             }
+            // To keep, to finish, what goes on already, and what cannot be done now.
             _ => return orders,
         }
         self.ordered = Some(wanted);

@@ -248,7 +248,7 @@ fn telemetry_of_an_agents_flight_ends_with_its_mission() {
     while flown.now < 40 * SECOND {
         let driver = &mut flown.drivers[0];
         driver.step(|_, passed| {
-            ended += usize::from(matches!(passed, Passed::Told(Telemetry::Ended(..))))
+            ended += usize::from(matches!(passed, Passed::Told(Telemetry::Ended(..))));
         });
         driver.pass();
         flown.now += POLL;

@@ -189,7 +189,7 @@ impl fmt::Display for Report<'_> {
                 self.mission_of(member)
             )?;
         }
-        if let Err(shared) = own_drones(self.fleet.members.iter()) {
+        if let Err(shared) = own_drones(&self.fleet.members.iter()) {
             writeln!(f, "only with simulated drones, or on different machines: {shared}")?;
         }
         let verdict = match self.short().count() {

@@ -9,7 +9,7 @@ use autopilot::vehicle::VehicleName;
 use crossbeam_channel::{Receiver, never};
 
 use crate::fleet::Fleet;
-use crate::flight::Places;
+use crate::flight::{FarAgents, Places};
 use crate::network::{News, Roster, Seen, Told, Totals, UnknownVehicle};
 use crate::runtime::Runtime;
 
@@ -87,6 +87,11 @@ impl Elsewhere {
         Ok(Self { roster: roster.clone(), places, connection, begun: now, next_look: now })
     }
 
+    /// How the agent of the vehicle with this place reaches those of vehicles elsewhere.
+    pub(super) fn far_agents(&mut self, place: usize) -> Option<Box<dyn FarAgents>> {
+        self.connection.as_mut()?.far_agents(place)
+    }
+
     /// What there is to tell; nothing without a network.
     pub(super) fn news(&self) -> Receiver<News> {
         self.connection.as_ref().map_or_else(never, Connection::news)
@@ -161,6 +166,19 @@ impl Configured {
 struct Connection(Bridge);
 
 impl Connection {
+    fn far_agents(&mut self, place: usize) -> Option<Box<dyn FarAgents>> {
+        #[cfg(feature = "zenoh")]
+        {
+            let talk = self.0.take_talk(place)?;
+            Some(Box::new(talk))
+        }
+        #[cfg(not(feature = "zenoh"))]
+        {
+            _ = place;
+            match self.0 {}
+        }
+    }
+
     /// What there is to tell.
     fn news(&self) -> Receiver<News> {
         #[cfg(feature = "zenoh")]

@@ -27,10 +27,12 @@ use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
 use crate::browser::{self, Listener, PageConfig, Planning, SettingsFile};
 use crate::fleet::{Fleet, FleetError, Member};
-use crate::flight::{Beside, Content, FinishedFlight, Flight, FlightError, Message, Seat};
+use crate::flight::{
+    Beside, Content, FarAgents, FinishedFlight, Flight, FlightError, Message, Seat,
+};
 use crate::json;
 use crate::mavlink::MavlinkServer;
-use crate::network;
+use crate::network::{self, Roster, Totals};
 use crate::recording::{Header, Recorded, Recorder, Recording, file_name};
 use crate::runtime::{Runtime, SecondSignal};
 use crate::timing::TimingReport;
@@ -97,7 +99,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         progress.print_line(&fleet.warnings.to_string());
     }
     if !arguments.mock {
-        own_drones(here.iter().copied())?;
+        own_drones(&here.iter().copied())?;
     }
     let net = arguments.net.as_deref().map(Configured::read).transpose()?;
     for place in roster.places(false) {
@@ -111,18 +113,8 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         progress.print_line(line);
     }
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
-    let names = fleet.members.iter().map(|member| member.config.name);
-    let seats: Vec<Seat> = Seat::in_one_room(names).collect();
-    let mut elsewhere = Elsewhere::begin(net, &runtime, &roster, seats[0].places())?;
-    let seats = seats.into_iter().zip(&roster.vehicles);
-    let seats = seats.filter_map(|(seat, entry)| entry.is_here.then_some(seat));
-    let begin = prepared.into_iter().zip(seats);
-    let begun = begin.map(|(one, seat)| {
-        // Those that have begun land if one cannot.
-        one.begin(&runtime, seat, listener.is_some(), &mut progress)
-    });
-    let (flying, mut shown): (Vec<_>, Vec<_>) =
-        begun.collect::<Result<Vec<_>, FlightError>>()?.into_iter().unzip();
+    let begin = Begin { runtime: &runtime, roster: &roster, has_page: listener.is_some() };
+    let (mut elsewhere, flying, mut shown) = begin.all(prepared, net, &mut progress)?;
     let open = |listener: Listener| {
         let page = page_config(arguments, &fleet, &shown);
         listener.open(&runtime, page, flying.iter().map(Under::on_page).collect())
@@ -193,16 +185,51 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
     let totals = elsewhere.end();
     ended.sort_by_key(|(place, _)| *place);
     let status = print_ends(arguments, ended, &shown)?;
+    print_end(arguments, status, totals.as_ref());
+    Ok(status)
+}
+
+/// Says how the program ends, and what became of the network.
+fn print_end(arguments: &FlyFleet, status: u8, totals: Option<&Totals>) {
     if arguments.interfaces.json {
         let mut end = json!({ "type": "fleet_end", "exit_status": status });
-        if let Some(totals) = &totals {
+        if let Some(totals) = totals {
             end["network"] = totals.json();
         }
         print_object(&end);
-    } else if let Some(totals) = &totals {
+    } else if let Some(totals) = totals {
         terminal::print(totals);
     }
-    Ok(status)
+}
+
+/// What all flights begin with.
+struct Begin<'r> {
+    runtime: &'r Runtime,
+    roster: &'r Roster,
+    has_page: bool,
+}
+
+impl Begin<'_> {
+    /// Begins all flights, and to hear the vehicles elsewhere.
+    fn all<'a>(
+        &self,
+        prepared: Vec<Prepared<'a>>,
+        net: Option<Configured>,
+        progress: &mut Progress,
+    ) -> Result<(Elsewhere, Vec<Under<'a>>, Vec<Shown>), CommandError> {
+        let vehicles = &self.roster.vehicles;
+        let seats: Vec<Seat> = Seat::in_one_room(vehicles.iter().map(|entry| entry.name)).collect();
+        let mut elsewhere = Elsewhere::begin(net, self.runtime, self.roster, seats[0].places())?;
+        // The seats of vehicles elsewhere are left: nobody here hears what is said to their agents.
+        let seats = seats.into_iter().enumerate().filter(|(place, _)| vehicles[*place].is_here);
+        let begin = prepared.into_iter().zip(seats).map(|(one, (place, seat))| {
+            // Those that have begun land if one cannot.
+            one.begin(self, seat, elsewhere.far_agents(place), progress)
+        });
+        let begun = begin.collect::<Result<Vec<_>, FlightError>>()?;
+        let (flying, shown) = begun.into_iter().unzip();
+        Ok((elsewhere, flying, shown))
+    }
 }
 
 /// Says how the flights ended; returns the worst exit status.
@@ -230,17 +257,17 @@ impl<'a> Prepared<'a> {
     /// Begins its flight, with what its camera sees for a page.
     fn begin(
         self,
-        runtime: &Runtime,
+        Begin { runtime, has_page, .. }: &Begin<'_>,
         seat: Seat,
-        has_page: bool,
+        far_agents: Option<Box<dyn FarAgents>>,
         progress: &mut Progress,
     ) -> Result<(Under<'a>, Shown), FlightError> {
         let Prepared { member, agent, mock, drone, station, recorder, recording } = self;
-        let beside = Beside { recorder, seat: Some(seat), agent };
+        let beside = Beside { recorder, agent, far_agents, seat: Some(seat) };
         let flight = Flight::start(runtime, member.plan.clone(), &member.config, &drone, beside)?;
         let controls = flight.controls();
         let mavlink = station.and_then(|station| station.open(runtime, &controls, progress));
-        let video = has_page.then(|| camera(runtime, member, mock.as_ref()));
+        let video = (*has_page).then(|| camera(runtime, member, mock.as_ref()));
         let start = member.config.estimator.start.unwrap_or_default();
         let (steps, truths) = (Vec::new(), Vec::new());
         let flies_a_plan = member.has_a_mission();
@@ -307,7 +334,7 @@ fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConf
 
 /// Each vehicle needs a drone of its own.
 pub(super) fn own_drones<'a>(
-    members: impl Iterator<Item = &'a Member> + Clone,
+    members: &(impl Iterator<Item = &'a Member> + Clone),
 ) -> Result<(), MembersError> {
     for (number, member) in members.clone().enumerate() {
         let same = members.clone().take(number).find(|other| other.drone == member.drone);

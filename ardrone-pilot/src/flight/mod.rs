@@ -36,7 +36,7 @@ pub use self::orders::Controls;
 use self::orders::Orders;
 pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
-pub use self::room::{Placed, Places, Seat};
+pub use self::room::{FarAgents, Placed, Places, Seat};
 use self::said::SaidLast;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
@@ -152,6 +152,8 @@ pub struct Beside {
     pub recorder: Option<Recorder>,
     /// Gives its orders, if it has no plan.
     pub agent: Option<MissionAgent>,
+    /// Where the agents of vehicles elsewhere are reached.
+    pub far_agents: Option<Box<dyn FarAgents>>,
     /// Its place among other vehicles.
     pub seat: Option<Seat>,
 }
@@ -195,7 +197,7 @@ impl Flight {
         drone: &DroneAddress,
         beside: Beside,
     ) -> Result<Self, FlightError> {
-        let Beside { recorder, seat, agent } = beside;
+        let Beside { recorder, seat, agent, far_agents } = beside;
         let stay = match (&plan, &agent) {
             (Some(_), _) => Stay::UntilFlown,
             (None, Some(_)) => Stay::UntilOver,
@@ -210,7 +212,7 @@ impl Flight {
         let (orders, controls) = Orders::new(vehicle.name(), runtime.ending().begin_flight());
         let control_port = ControlPort::read(runtime, SocketAddr::new(address, drone.control_port));
         let (sender, messages) = bounded(MESSAGES);
-        let surroundings = RealTime::new(link, orders, control_port, seat);
+        let surroundings = RealTime::new(link, orders, control_port, seat, far_agents);
         let mut tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
         tick.driver.agent = agent;
         let thread = std::thread::Builder::new()
@@ -278,6 +280,7 @@ fn resolve(host: &str) -> Result<IpAddr, FlightError> {
 
 /// When the tick loop ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(clippy::enum_variant_names, reason = "each says how long")]
 enum Stay {
     /// After the first flight.
     UntilFlown,
@@ -574,7 +577,7 @@ mod tests {
         let control_port = ControlPort::read(&runtime, SocketAddr::new(ports.host, ports.control));
         let (sender, messages) = bounded(MESSAGES);
         let stay = Stay::UntilFlown;
-        let surroundings = RealTime::new(link, orders, control_port, None);
+        let surroundings = RealTime::new(link, orders, control_port, None, None);
         (TickLoop::new(vehicle, stay, surroundings, None, sender), controls, messages)
     }
 

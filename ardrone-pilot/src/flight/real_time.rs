@@ -10,7 +10,7 @@ use super::LinkSummary;
 use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
-use super::room::Seat;
+use super::room::{FarAgents, Seat};
 use crate::drive::{Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
@@ -35,6 +35,8 @@ pub(super) struct RealTime {
     control_port: ControlPort,
     /// Where other vehicles are heard.
     seat: Option<Seat>,
+    /// Where the agents of vehicles elsewhere are reached.
+    far_agents: Option<Box<dyn FarAgents>>,
     start: Instant,
     buffer: Vec<u8>,
     /// Datagrams read in this tick.
@@ -57,12 +59,14 @@ impl RealTime {
         orders: Orders,
         control_port: ControlPort,
         seat: Option<Seat>,
+        far_agents: Option<Box<dyn FarAgents>>,
     ) -> Self {
         Self {
             link,
             orders,
             control_port,
             seat,
+            far_agents,
             start: clock(),
             buffer: vec![0_u8; BUFFER_BYTES],
             taken: 0,
@@ -230,12 +234,14 @@ impl Surroundings for RealTime {
     }
 
     fn hear(&mut self) -> Option<Line> {
-        self.seat.as_ref()?.next_line()
+        let near = self.seat.as_ref().and_then(Seat::next_line);
+        near.or_else(|| self.far_agents.as_mut()?.next_line())
     }
 
     fn say(&mut self, said: Said) {
-        if let Some(seat) = &self.seat {
-            seat.say(said);
+        let is_near = self.seat.as_ref().is_some_and(|seat| seat.say(said));
+        if let (false, Some(far)) = (is_near, &mut self.far_agents) {
+            far.say(&said);
         }
     }
 }

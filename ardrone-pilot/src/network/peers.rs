@@ -561,7 +561,7 @@ mod tests {
                 }
                 while let Some((arrives, told, text)) = to_left.pop_if_first(now) {
                     if let Ok(heard) = pair.left_hears(arrives, &text) {
-                        prop_assert!(heard.age >= arrives - told, "{heard:?} {:?}", arrives - told);
+                        prop_assert!(heard.age >= arrives.saturating_sub(told), "{heard:?} {:?}", arrives.saturating_sub(told));
                         prop_assert!(heard.age <= TOO_OLD);
                         prop_assert!(told > newest);
                         newest = told;

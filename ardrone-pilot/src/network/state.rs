@@ -276,10 +276,10 @@ pub(super) mod tests {
             fleet: Digest([0xab; 8]),
             session: Session(0x1234),
             vehicle: "left".parse().unwrap(),
-            sent: Duration::from_micros(5_000_000),
+            sent: Duration::from_secs(5),
             neighbour: Neighbour {
                 system: 1,
-                at: Duration::from_micros(4_980_000),
+                at: Duration::from_millis(4980),
                 place_m: Vector2::new(-2.5, 0.25),
                 velocity_m_s: Vector2::new(0.5, -0.25),
                 deviation_m: 0.125,
