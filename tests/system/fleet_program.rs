@@ -394,7 +394,23 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplan = \"no.txt\"\n",
             "cannot read the plan",
         ),
-        ("[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nagent = \"b\"\n", "line 4, column 1"),
+        ("[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nagents = \"b\"\n", "line 4, column 1"),
+        (
+            "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nagent = \"b\"\n",
+            "no agent is called `b`: built in are keeper, traveller, wingman",
+        ),
+        (
+            "[[vehicle]]\nname = \"leader\"\nstart = [0, 0, 0]\nagent = \"wingman\"\n",
+            "the agent of leader talks with `wingman`, which is no vehicle of this fleet",
+        ),
+        (
+            "[[vehicle]]\nname = \"leader\"\nstart = [0, 0, 0]\nagent = \"wingman\"\nplan = \"no.txt\"\n",
+            "leader has a plan and an agent",
+        ),
+        (
+            "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplaces = [[0, 0, 1, 0]]\n",
+            "a has places and no agent",
+        ),
         ("[fleet]\nseparation_m = 0.1\n", "room.separation_m is 0.1"),
         ("[fleet]\nconfig = \"no.toml\"\n", "cannot read the settings"),
     ] {

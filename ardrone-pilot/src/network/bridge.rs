@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use autopilot::vehicle::VehicleName;
 use crossbeam_channel::{Receiver, Sender, bounded};
+use mission_agent::Said;
 use tokio::sync::oneshot;
 use tokio::time::MissedTickBehavior;
 use zenoh::pubsub::Publisher;
@@ -21,7 +22,7 @@ use super::peers::Peers;
 use super::refused::Refused;
 use super::roster::Roster;
 use super::state::{STATE_BYTES, Session};
-use crate::flight::{Placed, Places};
+use crate::flight::{FarAgents, Placed, Places};
 use crate::runtime::{Runtime, Task};
 
 /// Interval of the states.
@@ -208,6 +209,25 @@ impl Bridge {
 impl Drop for Bridge {
     fn drop(&mut self) {
         self.task.end();
+    }
+}
+
+impl FarAgents for Talk {
+    /// What cannot be taken is counted; names of vehicles are those of peers.
+    fn say(&mut self, Said { to, line }: &Said) {
+        if let Ok(to) = to.parse() {
+            _ = Self::say(self, to, line);
+        }
+    }
+
+    /// A line that is longer than any message of an agent is none.
+    fn next_line(&mut self) -> Option<mission_agent::Line> {
+        loop {
+            let text = Self::next_line(self)?.text;
+            if let Ok(line) = mission_agent::Line::from(&text) {
+                return Some(line);
+            }
+        }
     }
 }
 

@@ -9,11 +9,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use arrayvec::ArrayString;
 use autopilot::vehicle::VehicleName;
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded};
-use mission_agent::Said;
 
 use super::refused::Refused;
 use super::roster::Roster;
-use crate::flight::FarAgents;
 
 /// Longest line.
 pub const LONGEST_LINE_BYTES: usize = 512;
@@ -98,25 +96,6 @@ impl Talk {
     /// How many lines were dropped: those that it wanted to say, and those that were said to it.
     pub fn dropped(&self) -> [u64; 2] {
         [self.unsaid, self.dropped.load(Ordering::Relaxed)]
-    }
-}
-
-impl FarAgents for Talk {
-    /// What cannot be taken is counted; names of vehicles are those of peers.
-    fn say(&mut self, Said { to, line }: &Said) {
-        if let Ok(to) = to.parse() {
-            _ = Self::say(self, to, line);
-        }
-    }
-
-    /// A line that is longer than any message of an agent is none.
-    fn next_line(&mut self) -> Option<mission_agent::Line> {
-        loop {
-            let Line { text, .. } = Self::next_line(self)?;
-            if let Ok(line) = mission_agent::Line::from(&text) {
-                return Some(line);
-            }
-        }
     }
 }
 

@@ -48,7 +48,8 @@ struct Program {
 
 impl Program {
     fn open(runtime: &Runtime, own: usize, config: &Path) -> Result<Self, NetworkError> {
-        let places = Seat::in_one_room(2).next().unwrap().places();
+        let names = ["left", "right"].map(|name| name.parse().unwrap());
+        let places = Seat::in_one_room(names).next().unwrap().places();
         let roster = roster(["left", "right"][own]);
         let config = NetworkConfig::read(config)?;
         let bridge = Bridge::open(runtime, config, roster, places.clone())?;
