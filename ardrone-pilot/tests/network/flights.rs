@@ -33,6 +33,9 @@ struct Room {
     folder: tempfile::TempDir,
 }
 
+/// A program's exit status, and what it said.
+type Ended = (Option<i32>, Vec<Value>);
+
 impl Room {
     fn new(protocol: &str) -> Option<Self> {
         Self::with(protocol, str::to_owned)
@@ -88,7 +91,8 @@ impl Room {
 
     /// Where both are in truth; nothing of one on the ground.
     fn places_m(&self) -> [Option<Vector2<f64>>; 2] {
-        assert_eq!(self.headings_deg, [0.0; 2], "places are turned otherwise");
+        let turned = self.headings_deg.iter().any(|heading_deg| *heading_deg != 0.0);
+        assert!(!turned, "places are turned otherwise");
         [0, 1].map(|end| {
             let truth = self.mocks[end].truth();
             let is_up = truth.position_m.z > 0.1;
@@ -126,7 +130,7 @@ impl Room {
     }
 
     /// Until all programs have ended and both drones are on the ground; how that was.
-    fn until_the_end(mut self) -> ([(Option<i32>, Vec<Value>); 2], f64) {
+    fn until_the_end(mut self) -> ([Ended; 2], f64) {
         self.watch(|room| {
             let is_down = |mock: &MockDrone| {
                 matches!(mock.truth().phase, Phase::Landed) && mock.truth().position_m.z < 0.1
@@ -190,7 +194,7 @@ fn after_a_partition_they_hear_each_other_again() {
     let came = |said: &[Value]| {
         said.iter().filter(|it| it["type"] == "network" && it["heard"] == true).count()
     };
-    let patience = Duration::from_secs(60);
+    let patience = Duration::from_mins(1);
     for pilot in &room.pilots {
         pilot.until(patience, |object| object["type"] == "network" && object["heard"] == true);
     }
@@ -243,7 +247,7 @@ fn the_example_in_python_prints_the_states() {
     let mut command = Command::new(program());
     command.arg("fleet").arg(fleets().join("two.toml")).args(["--mock", "--json", "--no-log"]);
     let pilot = Pilot::start(command.arg("--net").arg(&net));
-    pilot.until(Duration::from_secs(60), |object| object["airborne"] == true);
+    pilot.until(Duration::from_mins(1), |object| object["airborne"] == true);
     let script: PathBuf = fleets().join("watch.py");
     let output = Command::new(python)
         .arg(script)
