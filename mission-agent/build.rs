@@ -12,8 +12,6 @@ use translator::ParsedConfiguration;
 
 const AGENTS: &str = "agents";
 const BOUNDARY: &str = "boundary";
-/// Called by the translated agents themselves; a basic action that nobody declares.
-const TRACE: &str = "tracePlan";
 
 fn main() -> ExitCode {
     match build() {
@@ -83,7 +81,7 @@ fn agent(
     let declared = configuration.declarations();
     let settables: Vec<&str> = declared.settables.iter().map(|name| name.text.as_str()).collect();
     let mut methods = Vec::new();
-    for basic in declared.basics.iter().filter(|basic| basic.name.text != TRACE) {
+    for basic in &declared.basics {
         let parameters: Vec<String> = (basic.parameters.iter().enumerate())
             .map(|(number, parameter)| Ok(format!("a{number}: {}", rust(&parameter.name)?)))
             .collect::<Result<_, String>>()?;
@@ -116,10 +114,7 @@ fn fits(
             "{AGENTS}/{name}.conf: write `output = {name}.c;` and `rust = {name}.rs;` in `settings`"
         ));
     }
-    if settings.trace.as_ref().is_none_or(|trace| trace.text != TRACE) {
-        return Err(format!("{AGENTS}/{name}.conf: write `trace = {TRACE};` in `settings`"));
-    }
-    for basic in declared.basics.iter().filter(|basic| basic.name.text != TRACE) {
+    for basic in &declared.basics {
         let is_it = may.basics.iter().any(|it| {
             it.name.text == basic.name.text
                 && it.result == basic.result

@@ -55,6 +55,14 @@ pub(crate) struct Sensed {
     pub(crate) tags_in_use: bool,
 }
 
+/// What an agent has said, until it is taken.
+#[derive(Debug, Default)]
+pub(crate) struct Outbox {
+    pub(crate) said: ArrayVec<Said, MAX_SAID>,
+    /// Lines for which there was no room.
+    pub(crate) unsaid: u64,
+}
+
 /// One step of an agent: its senses, its order, and what it says.
 #[derive(Debug)]
 pub(crate) struct Step<'a> {
@@ -64,25 +72,20 @@ pub(crate) struct Step<'a> {
     pub(crate) me: u8,
     /// The last order of the step; an agent without one keeps to what goes on.
     pub(crate) wanted: Wanted,
-    pub(crate) said: ArrayVec<Said, MAX_SAID>,
-    /// Lines for which there was no room.
-    pub(crate) unsaid: u64,
-    /// The plan that was chosen first.
-    pub(crate) plan: Option<u32>,
+    outbox: &'a mut Outbox,
 }
 
 impl<'a> Step<'a> {
-    pub(crate) fn new(sensed: Sensed, places: &'a [Pose], me: u8) -> Self {
-        let (wanted, said) = (Wanted::Keep, ArrayVec::new());
-        Self { sensed, places, me, wanted, said, unsaid: 0, plan: None }
+    pub(crate) fn new(sensed: Sensed, places: &'a [Pose], me: u8, outbox: &'a mut Outbox) -> Self {
+        Self { sensed, places, me, wanted: Wanted::Keep, outbox }
     }
 
     /// An agent says something to a peer.
     pub(crate) fn say(&mut self, to: &'static str, envelope: &dyn fmt::Display) {
         let mut line = Line::new();
         let fits = write!(line, "{envelope}").is_ok();
-        if !fits || self.said.try_push(Said { to, line }).is_err() {
-            self.unsaid += 1;
+        if !fits || self.outbox.said.try_push(Said { to, line }).is_err() {
+            self.outbox.unsaid += 1;
         }
     }
 
@@ -181,10 +184,6 @@ impl Step<'_> {
         self.place(number).yaw_deg
     }
 
-    pub(crate) fn trace_plan(&mut self, plan: u32) {
-        self.plan.get_or_insert(plan);
-    }
-
     /// The belief `charge`.
     pub(crate) fn charge(&self) -> Option<(i64,)> {
         self.sensed.battery_percent.map(|percent| (percent.into(),))
@@ -204,7 +203,8 @@ mod tests {
 
     #[test]
     fn places_are_counted_from_one_and_others_are_at_the_origin() {
-        let mut step = Step::new(Sensed::default(), &PLACES, 0);
+        let mut outbox = Outbox::default();
+        let mut step = Step::new(Sensed::default(), &PLACES, 0, &mut outbox);
         assert_eq!((step.places(), step.place_x(1), step.place_height(1)), (1, 1.0, 1.5));
         for number in [0, 2, -1, i32::MIN, i32::MAX] {
             assert_eq!((step.place_x(number), step.place_yaw(number)), (0.0, 0.0), "{number}");
@@ -214,23 +214,22 @@ mod tests {
     #[test]
     fn near_is_within_a_distance_and_nowhere_for_a_drone_without_a_place() {
         let pose = Some(Pose { x_m: 1.0, y_m: 2.0, z_m: 1.0, yaw_deg: 0.0 });
-        let mut step = Step::new(Sensed { pose, ..Sensed::default() }, &PLACES, 0);
+        let mut outbox = Outbox::default();
+        let mut step = Step::new(Sensed { pose, ..Sensed::default() }, &PLACES, 0, &mut outbox);
         assert!(step.near(1.3, 2.0, 1.4, 0.51) && !step.near(1.3, 2.0, 1.4, 0.49));
         assert!(!step.near(f64::NAN, 2.0, 1.0, 9.0));
-        assert!(!Step::new(Sensed::default(), &PLACES, 0).near(0.0, 0.0, 0.0, 9.0));
+        assert!(!Step::new(Sensed::default(), &PLACES, 0, &mut outbox).near(0.0, 0.0, 0.0, 9.0));
     }
 
     #[test]
     fn what_does_not_fit_is_counted() {
-        let mut step = Step::new(Sensed::default(), &PLACES, 0);
+        let mut outbox = Outbox::default();
+        let mut step = Step::new(Sensed::default(), &PLACES, 0, &mut outbox);
         step.say("b", &"x".repeat(MAX_LINE + 1));
-        assert_eq!((step.said.len(), step.unsaid), (0, 1));
         for _ in 0..=MAX_SAID {
             step.say("b", &"0 a tell at(1.0, 2.0)");
         }
-        assert_eq!(
-            (step.said.len(), step.unsaid, step.said[0].text()),
-            (MAX_SAID, 2, "tell at(1.0, 2.0)")
-        );
+        assert_eq!((outbox.said.len(), outbox.unsaid), (MAX_SAID, 2));
+        assert_eq!(outbox.said[0].text(), "tell at(1.0, 2.0)");
     }
 }

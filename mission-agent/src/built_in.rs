@@ -12,9 +12,6 @@ pub(crate) trait Translated: std::fmt::Debug + Send {
     /// A peer says something.
     fn hear(&mut self, step: &mut Step<'_>, line: &str) -> Result<(), Misunderstood>;
 
-    /// Line in the agent's source and trigger of a plan.
-    fn plan(&self, number: u32) -> Option<(u32, &'static str)>;
-
     /// Its number among its peers.
     fn me(&self) -> u8;
 
@@ -83,9 +80,6 @@ macro_rules! built_in {
                 $(fn $method(&mut self $(, $argument: $type)*) -> $result {
                     Step::$method(self $(, $argument)*)
                 })*
-                fn trace_plan(&mut self, plan: u32) {
-                    Step::trace_plan(self, plan);
-                }
                 built_in! { @send $kind }
             }
 
@@ -111,11 +105,6 @@ macro_rules! built_in {
             }
         }
     };
-    (@plan) => {
-        fn plan(&self, number: u32) -> Option<(u32, &'static str)> {
-            bindings::PLANS.get(usize::try_from(number).ok()?).copied()
-        }
-    };
     (@agent silent $text:literal) => {
         #[allow(clippy::unnecessary_wraps, reason = "as those that talk")]
         pub(super) fn new(_: &str) -> Result<Box<dyn Translated>, NoAgent> {
@@ -130,8 +119,6 @@ macro_rules! built_in {
             fn hear(&mut self, _: &mut Step<'_>, _: &str) -> Result<(), Misunderstood> {
                 Err(Misunderstood::DoesNotTalk)
             }
-
-            built_in! { @plan }
 
             fn me(&self) -> u8 {
                 0
@@ -189,8 +176,6 @@ macro_rules! built_in {
                     Err(_) => Err(Misunderstood::NoMessage),
                 }
             }
-
-            built_in! { @plan }
 
             fn me(&self) -> u8 {
                 self.me as u8

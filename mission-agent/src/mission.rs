@@ -12,7 +12,7 @@ use autopilot::vehicle::{
 };
 use kinematics::Pose;
 
-use crate::boundary::{Said, Sensed, Step, Wanted};
+use crate::boundary::{Outbox, Said, Sensed, Step, Wanted};
 use crate::built_in::{self, NoAgent, Translated};
 
 /// After an order was refused, it is not given again for so long.
@@ -47,7 +47,6 @@ pub enum Misunderstood {
 #[derive(Debug)]
 pub struct MissionAgent {
     agent: Box<dyn Translated>,
-    name: String,
     places: Vec<Pose>,
     take_off: Commands,
     land: Commands,
@@ -59,9 +58,7 @@ pub struct MissionAgent {
     waits_until: Duration,
     /// It wants nothing more.
     is_finished: bool,
-    said: ArrayVec<Said, 64>,
-    unsaid: u64,
-    plan: Option<(u32, &'static str)>,
+    outbox: Outbox,
 }
 
 impl MissionAgent {
@@ -83,7 +80,6 @@ impl MissionAgent {
         };
         Ok(Self {
             agent: built_in::new(name, vehicle)?,
-            name: name.to_owned(),
             places,
             take_off: commands("clearCommands\ntakeoff"),
             land: commands("clearCommands\nland"),
@@ -92,15 +88,8 @@ impl MissionAgent {
             ordered: None,
             waits_until: Duration::ZERO,
             is_finished: false,
-            said: ArrayVec::new(),
-            unsaid: 0,
-            plan: None,
+            outbox: Outbox::default(),
         })
-    }
-
-    /// The name under which it is built in.
-    pub fn name(&self) -> &str {
-        &self.name
     }
 
     /// The names of the vehicles with which it talks, its own among them.
@@ -108,14 +97,9 @@ impl MissionAgent {
         self.agent.peers()
     }
 
-    /// Line in its source and trigger of the plan that it chose in the last step.
-    pub fn plan(&self) -> Option<(u32, &'static str)> {
-        self.plan
-    }
-
     /// Lines that it could not say, because there was no room for them.
     pub fn unsaid(&self) -> u64 {
-        self.unsaid
+        self.outbox.unsaid
     }
 
     /// Whether its mission is over: nothing flies any more, and either it is finished, or its flight ended otherwise than by its
@@ -125,8 +109,8 @@ impl MissionAgent {
     }
 
     /// Takes what it has said.
-    pub fn take_said(&mut self) -> impl Iterator<Item = Said> + use<> {
-        std::mem::take(&mut self.said).into_iter()
+    pub fn take_said(&mut self) -> impl Iterator<Item = Said> {
+        self.outbox.said.drain(..)
     }
 
     /// A peer says something.
@@ -135,7 +119,8 @@ impl MissionAgent {
     /// [`Misunderstood`]. Nothing has changed then.
     pub fn hear(&mut self, now: Duration, line: &str) -> Result<(), Misunderstood> {
         let sensed = Sensed { now_ms: milliseconds(now), ..Sensed::default() };
-        self.agent.hear(&mut Step::new(sensed, &self.places, self.agent.me()), line)
+        let me = self.agent.me();
+        self.agent.hear(&mut Step::new(sensed, &self.places, me, &mut self.outbox), line)
     }
 
     /// One step; returns what it orders. The orders are given one after the other, unless one is [`refused`](Self::refused).
@@ -155,14 +140,9 @@ impl MissionAgent {
             obeyed,
             tags_in_use: self.uses_tags,
         };
-        let mut step = Step::new(sensed, &self.places, self.agent.me());
+        let mut step = Step::new(sensed, &self.places, self.agent.me(), &mut self.outbox);
         self.agent.step(&mut step);
-        let Step { wanted, said, unsaid, plan, .. } = step;
-        for line in said {
-            self.unsaid += u64::from(self.said.try_push(line).is_err());
-        }
-        self.unsaid += unsaid;
-        self.plan = plan.and_then(|plan| self.agent.plan(plan));
+        let wanted = step.wanted;
         self.is_finished |= wanted == Wanted::Finish;
         if !obeyed || now < self.waits_until {
             // What somebody else has ordered meanwhile is not what this agent has.

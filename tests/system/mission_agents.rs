@@ -8,7 +8,7 @@ use ardrone_pilot::fleet::{self, Fleet, Member, SimulatedFleet, SimulatedMember}
 use autopilot::Vehicle;
 use autopilot::outcome::Outcome;
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{Input, Operator, OperatorOrder, Refused, Station, Telemetry};
+use autopilot::vehicle::{Input, Operator, OperatorOrder, Refused, Station};
 use mission_agent::{Line, Said};
 use nalgebra::Vector2;
 
@@ -238,20 +238,4 @@ fn what_is_said_of_the_agents_is_checked() {
         assert!(checked.status.success(), "{text}{}", String::from_utf8_lossy(&checked.stderr));
         assert_eq!(text.matches("holds in every environment").count(), holds, "{text}");
     }
-}
-
-#[test]
-fn telemetry_of_an_agents_flight_ends_with_its_mission() {
-    let fleet = read("corridor.toml");
-    let mut flown = Flown::new(&fleet);
-    let mut ended = 0;
-    while flown.now < 40 * SECOND {
-        let driver = &mut flown.drivers[0];
-        driver.step(|_, passed| {
-            ended += usize::from(matches!(passed, Passed::Told(Telemetry::Ended(..))));
-        });
-        driver.pass();
-        flown.now += POLL;
-    }
-    assert_eq!(ended, 0, "who never flew has ended no flight");
 }
