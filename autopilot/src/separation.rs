@@ -241,6 +241,12 @@ impl Neighbours {
     }
 }
 
+/// How far two keep from each other, across, whose places are known so well: by their standard deviations.
+pub fn kept_m(separation_m: f64, deviation_m: [f64; 2]) -> f64 {
+    let [one_m, other_m] = deviation_m;
+    separation_m + DEVIATIONS * one_m.hypot(other_m)
+}
+
 fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let Known { told: neighbour, doubt_m } = known;
     let (place_m, reach_m) = neighbour.reach(now);
@@ -250,10 +256,10 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let to_rest_m = |speed_m_s: f64| Stopping::CAUTIOUS.way_m(speed_m_s.max(0.0));
     let ours_m = to_rest_m(oneself.velocity_m_s.dot(&outward));
     let theirs_m = to_rest_m(-neighbour.velocity_m_s.dot(&outward));
-    let deviation_m = oneself.deviation_m.hypot(neighbour.deviation_m).hypot(*doubt_m);
     // Of both separations the larger one, so that both draw the same line.
     let separation_m = oneself.separation_m.max(neighbour.separation_m);
-    let keep_m = separation_m + DEVIATIONS * deviation_m + reach_m;
+    let theirs_known_m = neighbour.deviation_m.hypot(*doubt_m);
+    let keep_m = kept_m(separation_m, [oneself.deviation_m, theirs_known_m]) + reach_m;
     let between_m = way_m.norm() - keep_m;
     // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way
     // back.

@@ -427,11 +427,18 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     for (text, said) in [
         (two("a", 5.0), "f.toml:5:8"),
         (two("b", 1.0), "b and a start 1.00 m from each other, and fly no nearer than 1.5 m"),
+        (two("b", 1.6), "1.60 m from each other, give or take 0.14 m, and fly no nearer than 1.5"),
     ] {
         std::fs::write(&path, text).unwrap();
         let (status, error) = check(&path);
         assert!(status == Some(20) && error.contains(said), "{error}");
     }
+    // The less is known of where they start, the further apart they have to.
+    let roughly = two("b", 3.4).replace("[3.4, 0, 0]", "[3.4, 0, 0, 1, 20]");
+    std::fs::write(&path, &roughly).unwrap();
+    assert!(check(&path).1.contains("3.40 m from each other, give or take 2.00 m"));
+    std::fs::write(&path, roughly.replace("3.4", "3.6")).unwrap();
+    assert!(!check(&path).1.contains("from each other"));
     let many = "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\n".repeat(300);
     std::fs::write(&path, many).unwrap();
     assert!(check(&path).1.contains("a fleet has 1 to 32 vehicles, and this one 300"));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{Plan, PlanError, TagUse, ZOrigin};
+use autopilot::separation::{MAX_NEIGHBOURS, kept_m};
 use autopilot::vehicle::{CannotFly, VehicleConfig, VehicleName};
 use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText};
 use kinematics::Pose;
@@ -18,7 +19,7 @@ use crate::settings::{Settings, SettingsError};
 use crate::{simulation, text_file};
 
 /// Most vehicles of a fleet: each keeps apart from all others.
-const MOST: usize = autopilot::separation::MAX_NEIGHBOURS + 1;
+const MOST: usize = MAX_NEIGHBOURS + 1;
 /// Drones nearer to each other hear each other's ultrasound if theirs has the same frequency (Parrot's developer guide).
 const ULTRASOUND_M: f64 = 3.0;
 
@@ -319,9 +320,18 @@ fn start_findings<'a>(
         let pair =
             format!("{name} and {} start {apart_m:.2} m from each other", other.name.get_ref());
         let separation_m = config.separation_m;
-        if apart_m < separation_m {
-            let message = format!("{pair}, and fly no nearer than {separation_m} m");
-            let help = "put them further apart, or give a smaller `separation_m`";
+        let keep_m = kept_m(separation_m, [start.deviation_m, there.deviation_m]);
+        if apart_m < keep_m {
+            let (known, help) = if apart_m < separation_m {
+                (String::new(), "put them further apart, or give a smaller `separation_m`")
+            } else {
+                let unsure_m = keep_m - separation_m;
+                (
+                    format!(", give or take {unsure_m:.2} m"),
+                    "measure their starts more exactly, put them further apart, or give a smaller `separation_m`",
+                )
+            };
+            let message = format!("{pair}{known}, and fly no nearer than {separation_m} m");
             findings.push(Diagnostic::error(message, span.clone()).help(help));
         } else if apart_m < ULTRASOUND_M && vehicle.ultrasound() == other.ultrasound() {
             let message =
