@@ -148,6 +148,8 @@ pub struct Start {
     pub heading_deg: f64,
     /// Standard deviation of the place on the worse axis.
     pub deviation_m: f64,
+    /// Standard deviation of the heading.
+    pub heading_deviation_deg: f64,
 }
 
 impl Start {
@@ -726,6 +728,11 @@ impl Estimator {
         let known_m =
             self.world.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
         known_m.hypot(uncertainty::silence_m(self.silence_s(now), speed_m_s))
+    }
+
+    /// Standard deviation of the heading in the world, as far as its start and tags decide it.
+    pub fn heading_deviation_deg(&self) -> f64 {
+        self.world.heading_deviation_deg()
     }
 
     /// Standard deviation of the height.

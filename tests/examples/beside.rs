@@ -80,7 +80,7 @@ fn ours(air: &Air, number: u8, is_told: bool) -> Result<(MockDrone, Driver<Udp>)
         read_back: false,
         ..VehicleConfig::default()
     };
-    config.starts_at(Some(Start { place_m: place_m.into(), heading_deg: 0.0, deviation_m: 0.0 }));
+    config.starts_at(Some(Start { place_m: place_m.into(), ..Start::default() }));
     let [x_m, y_m] = place_m.map(|m| -m);
     let text = format!("takeoff\ngoto {x_m} {y_m} 0.5 0\nland\n");
     let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;

@@ -60,7 +60,7 @@ fn side_by_side(orders: Vec<(Duration, OperatorOrder)>) -> Fleet {
     let member = |x_m: f64, seed: u64| {
         let mut member: Member = crossing(1, 0.0, seed).members.remove(0);
         let place_m = Vector2::new(x_m, 0.0);
-        member.start = Start { place_m, heading_deg: 0.0, deviation_m: 0.0 };
+        member.start = Start { place_m, ..Start::default() };
         member.plan = format!("takeoff\nsetStayTime 25\ngoto {x_m} 0 0.5 0\nland\n");
         member
     };
@@ -273,7 +273,7 @@ fn targets_are_places_in_the_common_frame_also_in_the_next_flight() {
 #[test]
 fn a_drone_that_restarts_on_the_ground_stands_as_it_landed() {
     let mut member = side_by_side(Vec::new()).members.remove(0);
-    member.start = Start { place_m: Vector2::new(-3.0, 0.0), heading_deg: 0.0, deviation_m: 0.0 };
+    member.start = Start { place_m: Vector2::new(-3.0, 0.0), ..Start::default() };
     member.plan = "takeoff\ngoto -3 0 0 180\nland\n".to_owned();
     member.world.scenario = Scenario::parse("restart", "+25 restart\n").unwrap();
     let again = plan("takeoff\ngoto -3 2 0 180\nland\n");

@@ -18,7 +18,7 @@ fn shared() -> Air {
 fn member(x_m: f64, plan: String, seed: u64, ultrasound: Ultrasound) -> Member {
     let mut member: Member = crossing(1, 0.0, seed).members.remove(0);
     let place_m = Vector2::new(x_m, 0.0);
-    member.start = Start { place_m, heading_deg: 0.0, deviation_m: 0.0 };
+    member.start = Start { place_m, ..Start::default() };
     member.plan = plan;
     member.pilot.separation_m = OFF_M;
     member.pilot.ultrasound = Some(ultrasound);

@@ -34,12 +34,14 @@ mod processes;
 mod recording;
 mod relay;
 mod reports;
+
 mod safety;
 mod sensors;
 mod sequence;
 mod setpoints;
 mod side_by_side;
 mod simulated;
+mod starts_by_tags;
 mod station;
 mod streams;
 mod tag_log;

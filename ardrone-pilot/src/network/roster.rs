@@ -150,7 +150,12 @@ pub(super) mod tests {
     use super::*;
 
     fn start(x_m: f64, heading_deg: f64) -> Start {
-        Start { place_m: Vector2::new(x_m, 0.0), heading_deg, deviation_m: 0.05 }
+        Start {
+            place_m: Vector2::new(x_m, 0.0),
+            heading_deg,
+            deviation_m: 0.05,
+            ..Start::default()
+        }
     }
 
     pub(in crate::network) fn two(here: &[&str]) -> Roster {

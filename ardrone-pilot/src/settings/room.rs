@@ -11,6 +11,7 @@ use super::section::{Declared, Section, Value, outside};
 const PLACE_M: [f64; 2] = [-200.0, 200.0];
 const HEADING_DEG: [f64; 2] = [-360.0, 360.0];
 const DEVIATION_M: [f64; 2] = [0.0, 5.0];
+const HEADING_DEVIATION_DEG: [f64; 2] = [0.0, 45.0];
 const SEPARATION_M: [f64; 2] = [0.8, 20.0];
 /// Standard deviation of a start that is measured with a tape.
 const USUAL_DEVIATION_M: f64 = 0.05;
@@ -24,7 +25,7 @@ pub(super) struct Room {
     pub(super) peers: Vec<u8>,
 }
 
-/// A start as it is written: nothing, or three or four numbers.
+/// A start as it is written: nothing, or three to five numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub(crate) struct SurveyedStart(pub(crate) Option<Start>);
@@ -37,9 +38,10 @@ impl Room {
             Value {
                 name: "start",
                 comments: &[
-                    " Where the drone stands at its first start in a room that it shares with others: [right, forward, heading], or a fourth number",
-                    " for the standard deviation of the place, which is 0.05 m otherwise. Metres; degrees clockwise. Targets, fence and tags are then",
-                    " places of the room. [] for a room that begins where the drone starts.",
+                    " Where the drone stands at its first start in a room that it shares with others: [right, forward, heading]. A fourth number is",
+                    " the standard deviation of the place, 0.05 m otherwise, a fifth one that of the heading, 0 degrees otherwise (at least 0.15 m and 5",
+                    " degrees with surveyed tags). Metres; degrees clockwise. Targets, fence and tags are then places of the room. [] for a room that",
+                    " begins where the drone starts.",
                 ],
                 range: None,
             },
@@ -70,37 +72,41 @@ impl TryFrom<Vec<f64>> for SurveyedStart {
     type Error = String;
 
     fn try_from(written: Vec<f64>) -> Result<Self, String> {
-        let (place_m, heading_deg, deviation_m) = match *written {
+        let [x_m, y_m, heading_deg, deviation_m, heading_deviation_deg] = match *written {
             [] => return Ok(Self(None)),
-            [x, y, heading] => (Vector2::new(x, y), heading, USUAL_DEVIATION_M),
-            [x, y, heading, deviation] => (Vector2::new(x, y), heading, deviation),
+            [x, y, heading] => [x, y, heading, USUAL_DEVIATION_M, 0.0],
+            [x, y, heading, deviation] => [x, y, heading, deviation, 0.0],
+            [x, y, heading, deviation, of_heading] => [x, y, heading, deviation, of_heading],
             _ => {
                 return Err(format!(
-                    "{} numbers where a start has three or four: [right, forward, heading] in metres and degrees",
+                    "{} numbers where a start has three to five: [right, forward, heading] in metres and degrees, and the standard deviations \
+                     of place and heading",
                     written.len()
                 ));
             }
         };
         let numbers = [
-            ("its place to the right", place_m.x, PLACE_M),
-            ("its place forward", place_m.y, PLACE_M),
+            ("its place to the right", x_m, PLACE_M),
+            ("its place forward", y_m, PLACE_M),
             ("its heading", heading_deg, HEADING_DEG),
-            ("its standard deviation", deviation_m, DEVIATION_M),
+            ("the standard deviation of its place", deviation_m, DEVIATION_M),
+            ("the standard deviation of its heading", heading_deviation_deg, HEADING_DEVIATION_DEG),
         ];
         let wrong =
             |(name, value, [from, to]): (_, _, [f64; 2])| outside(name, value, &(from..=to));
-        match numbers.into_iter().find_map(wrong) {
-            Some(reason) => Err(format!("of a start {reason}")),
-            None => Ok(Self(Some(Start { place_m, heading_deg, deviation_m }))),
+        if let Some(reason) = numbers.into_iter().find_map(wrong) {
+            return Err(format!("of a start {reason}"));
         }
+        let place_m = Vector2::new(x_m, y_m);
+        Ok(Self(Some(Start { place_m, heading_deg, deviation_m, heading_deviation_deg })))
     }
 }
 
 impl From<SurveyedStart> for Vec<f64> {
     fn from(SurveyedStart(start): SurveyedStart) -> Self {
         let numbers = |start: Start| {
-            let Start { place_m, heading_deg, deviation_m } = start;
-            vec![place_m.x, place_m.y, heading_deg, deviation_m]
+            let Start { place_m, heading_deg, deviation_m, heading_deviation_deg } = start;
+            vec![place_m.x, place_m.y, heading_deg, deviation_m, heading_deviation_deg]
         };
         start.map(numbers).unwrap_or_default()
     }
@@ -132,13 +138,17 @@ mod tests {
     use crate::settings::Settings;
 
     #[test]
-    fn a_start_has_three_numbers_or_four_and_is_read_back() {
-        for (start, deviation_m) in [("1, -2, 90", 0.05), ("1, -2, 90, 0.2", 0.2)] {
+    fn a_start_has_three_to_five_numbers_and_is_read_back() {
+        for (start, deviation_m, heading_deviation_deg) in [
+            ("1, -2, 90", 0.05, 0.0),
+            ("1, -2, 90, 0.2", 0.2, 0.0),
+            ("1, -2, 90, 0.2, 10", 0.2, 10.0),
+        ] {
             let text = format!("[room]\nstart = [{start}]\nseparation_m = 2\npeers = [2, 3]\n");
             let settings = Settings::parse("p", &text).unwrap();
             let config = settings.pilot_config(ZOrigin::Hover);
-            let expected =
-                Start { place_m: Vector2::new(1.0, -2.0), heading_deg: 90.0, deviation_m };
+            let place_m = Vector2::new(1.0, -2.0);
+            let expected = Start { place_m, heading_deg: 90.0, deviation_m, heading_deviation_deg };
             assert_eq!(config.estimator.start, Some(expected));
             assert_eq!((config.separation_m, config.peers), (2.0, vec![2, 3]));
             assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);
@@ -149,12 +159,13 @@ mod tests {
     #[test]
     fn what_is_no_place_of_a_room_is_refused() {
         for (text, said) in [
-            ("start = [1, 2]", "2 numbers where a start has three or four"),
-            ("start = [1, 2, 3, 4, 5]", "5 numbers"),
+            ("start = [1, 2]", "2 numbers where a start has three to five"),
+            ("start = [1, 2, 3, 4, 5, 6]", "6 numbers"),
             ("start = [nan, 2, 3]", "its place to the right is NaN"),
             ("start = [1, 201, 3]", "its place forward is 201"),
             ("start = [1, 2, 361]", "its heading is 361"),
-            ("start = [1, 2, 3, -0.1]", "its standard deviation is -0.1"),
+            ("start = [1, 2, 3, -0.1]", "the standard deviation of its place is -0.1"),
+            ("start = [1, 2, 3, 1, 46]", "the standard deviation of its heading is 46"),
             ("separation_m = 0.5", "room.separation_m is 0.5"),
             ("peers = [256]", "line 2, column 10"),
         ] {

@@ -20,7 +20,12 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 pub(crate) fn roster(here: &str) -> Roster {
     let vehicles = [("left", 1, -2.5), ("right", 2, 2.5)].map(|(name, system, x_m)| {
-        let start = Start { place_m: Vector2::new(x_m, 0.0), heading_deg: 0.0, deviation_m: 0.05 };
+        let start = Start {
+            place_m: Vector2::new(x_m, 0.0),
+            heading_deg: 0.0,
+            deviation_m: 0.05,
+            ..Start::default()
+        };
         (name.parse().unwrap(), system, start)
     });
     Roster::new("two".parse().unwrap(), vehicles, &[here.parse().unwrap()]).unwrap()

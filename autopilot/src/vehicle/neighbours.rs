@@ -62,10 +62,14 @@ impl Vehicle {
     /// In a common frame the next flight starts where the last one ended, and as exactly as that is known.
     pub(super) fn start_here(&mut self, now: Duration) {
         let state = self.state(now);
-        let deviation_m = self.flight.estimator.horizontal_deviation_m(now);
+        let estimator = &self.flight.estimator;
         if let Some(start) = &mut self.config.estimator.start {
-            let place_m = state.position_m.xy();
-            *start = Start { place_m, heading_deg: state.yaw_deg, deviation_m };
+            *start = Start {
+                place_m: state.position_m.xy(),
+                heading_deg: state.yaw_deg,
+                deviation_m: estimator.horizontal_deviation_m(now),
+                heading_deviation_deg: estimator.heading_deviation_deg(),
+            };
         }
     }
 

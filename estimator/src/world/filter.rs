@@ -88,18 +88,14 @@ impl Filter {
         filter.x[PLACE] = start.place_m.x;
         filter.x[PLACE + 1] = start.place_m.y;
         let mut set = |state: usize, deviation: f64| filter.p[state][state] = deviation * deviation;
+        let [least_m, least_deg] = if surveyed { [START_M, START_DEG] } else { [0.0; 2] };
         for axis in 0..2 {
             set(BIAS + axis, BIAS_M_S);
             set(CAMERA + axis, CAMERA_RAD);
-            set(
-                PLACE + axis,
-                if surveyed { START_M.max(start.deviation_m) } else { start.deviation_m },
-            );
+            set(PLACE + axis, start.deviation_m.max(least_m));
         }
         set(RATE, RATE_DEG_S.to_radians());
-        if surveyed {
-            set(HEADING, START_DEG.to_radians());
-        }
+        set(HEADING, start.heading_deviation_deg.max(least_deg).to_radians());
         filter
     }
 

@@ -410,6 +410,11 @@ impl World {
         (place_m - left.place_m(), velocity_m_s - left.rate_m_s(), yaw_deg - left.heading_deg())
     }
 
+    /// Standard deviation of the heading.
+    pub(crate) fn heading_deviation_deg(&self) -> f64 {
+        self.filter.heading_deviation_deg()
+    }
+
     /// The known tags; `None` if tags are not used.
     pub(crate) fn status(&self, now_s: f64) -> Option<TagStatus> {
         self.config.as_ref()?;

@@ -29,11 +29,12 @@ pub fn crossing(count: usize, radius_m: f64, seed: u64) -> Fleet {
         world.drone.seed = seed * 100 + number as u64;
         let [x_m, y_m] = (-place_m).into();
         Member {
-            start: Start { place_m, heading_deg: angle_deg, deviation_m: 0.0 },
+            start: Start { place_m, heading_deg: angle_deg, ..Start::default() },
             plan: format!("takeoff\ngoto {x_m} {y_m} 0.5 0\nland\n"),
             world,
             pilot: VehicleConfig::default(),
             orders: Vec::new(),
+            stands: None,
             is_foreign: false,
             injected: Injected::default(),
         }
@@ -64,7 +65,7 @@ pub fn corridor(seed: u64) -> Fleet {
     }
     let mut fleet = crossing(flights.len(), 1.0, seed);
     for (member, (from_m, [x_m, y_m], stay_s)) in fleet.members.iter_mut().zip(flights) {
-        member.start = Start { place_m: from_m.into(), heading_deg: 0.0, deviation_m: 0.0 };
+        member.start = Start { place_m: from_m.into(), ..Start::default() };
         member.plan = format!("takeoff\nsetStayTime {stay_s}\ngoto {x_m} {y_m} 0.5 0\nland\n");
         // A rectangle is a polygon.
         if let Ok(border) = border {

@@ -43,6 +43,8 @@ const AFTERMATH: Duration = Duration::from_secs(45);
 pub struct Member {
     /// Where it stands at the start, in the common frame.
     pub start: Start,
+    /// Where it truly stands, if its start is not exact.
+    pub stands: Option<Start>,
     /// Its plan, whose targets are places in the common frame.
     pub plan: String,
     /// The drone, the air around it, and the faults of both.
@@ -254,7 +256,7 @@ impl Fleet {
             let mut config = VehicleConfig { system, peers, ..member.pilot.clone() };
             config.starts_at(Some(member.start));
             let vehicle = Vehicle::flying(crate::plan(&member.plan), &config)?;
-            let Start { place_m, heading_deg, .. } = member.start;
+            let Start { place_m, heading_deg, .. } = member.stands.unwrap_or(member.start);
             let start = Standing { place_m, heading_deg };
             let world = WorldConfig { start, ..member.world.clone() };
             flying.push(Flying {

@@ -71,11 +71,12 @@ impl Fleet {
             let link = if has_bad_link { campaign::link(random) } else { LinkFaults::default() };
             let ultrasound = if number % 2 == 0 { Ultrasound::Fast } else { Ultrasound::Slow };
             Member {
-                start: Start { place_m, heading_deg, deviation_m: 0.0 },
+                start: Start { place_m, heading_deg, ..Start::default() },
                 plan: plan(random),
                 world: WorldConfig { drone, link, ..WorldConfig::default() },
                 pilot: VehicleConfig { ultrasound: Some(ultrasound), ..VehicleConfig::default() },
                 orders: Vec::new(),
+                stands: None,
                 is_foreign: false,
                 injected,
             }
