@@ -138,6 +138,8 @@ pub(crate) struct Other {
     separation_m: f64,
     /// How near to its place this vehicle may come.
     pub(crate) keep_m: f64,
+    /// How far from its place it may be.
+    within_m: f64,
     /// The way that it claims, if this vehicle has to make it.
     claim: Option<Claim>,
     /// Unit vector towards it.
@@ -151,6 +153,11 @@ impl Other {
     pub(crate) fn wall(&self, place_m: Vector2<f64>) -> Wall {
         let distance_m = self.line_m - place_m.dot(&self.outward);
         Wall { distance_m, outward: self.outward }
+    }
+
+    /// Whether it may be in any direction, as seen from a place: nobody knows then which way leads away from it.
+    pub(crate) fn is_anywhere(&self, from_m: Vector2<f64>) -> bool {
+        (self.place_m - from_m).norm() <= self.within_m
     }
 
     /// Whether a straight way passes it too near. Who wants to where the other is has to wait.
@@ -241,10 +248,9 @@ impl Neighbours {
     }
 }
 
-/// How far two keep from each other, across, whose places are known so well: by their standard deviations.
-pub fn kept_m(separation_m: f64, deviation_m: [f64; 2]) -> f64 {
-    let [one_m, other_m] = deviation_m;
-    separation_m + DEVIATIONS * one_m.hypot(other_m)
+/// How much nearer to each other two may be than they are known to be, by the standard deviations of their places.
+pub fn unsure_m([one_m, other_m]: [f64; 2]) -> f64 {
+    DEVIATIONS * one_m.hypot(other_m)
 }
 
 fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
@@ -258,8 +264,9 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let theirs_m = to_rest_m(-neighbour.velocity_m_s.dot(&outward));
     // Of both separations the larger one, so that both draw the same line.
     let separation_m = oneself.separation_m.max(neighbour.separation_m);
-    let theirs_known_m = neighbour.deviation_m.hypot(*doubt_m);
-    let keep_m = kept_m(separation_m, [oneself.deviation_m, theirs_known_m]) + reach_m;
+    let their_deviation_m = neighbour.deviation_m.hypot(*doubt_m);
+    let within_m = unsure_m([oneself.deviation_m, their_deviation_m]) + reach_m;
+    let keep_m = separation_m + within_m;
     let between_m = way_m.norm() - keep_m;
     // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way
     // back.
@@ -268,7 +275,7 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let line_m = oneself.place_m.dot(&outward) + room_m;
     let makes_way = |claim: &Claim| claim.is_before(neighbour.system, oneself.rank, oneself.system);
     let claim = neighbour.claim.filter(makes_way);
-    Other { place_m, separation_m, keep_m, claim, outward, line_m }
+    Other { place_m, separation_m, keep_m, within_m, claim, outward, line_m }
 }
 
 #[cfg(test)]

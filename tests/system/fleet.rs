@@ -237,6 +237,21 @@ fn a_vehicle_that_lies_of_its_place_is_not_believed() {
     assert!(flight.is_down && vetoed(&flight, 1, Veto::Crowded), "{flight:?}");
 }
 
+/// By what it tells the first one is behind the second one. A way back from there leads to where it truly is.
+#[test]
+fn nobody_goes_back_from_one_that_may_be_anywhere() {
+    let still = |x_m| ([x_m, 0.0], [x_m, 0.0], 20);
+    let mut fleet = from_to([9.0, 9.0], &[still(-1.0), still(1.0)], 1);
+    fleet.air.lie = Some(from_the_tenth_second(Vector2::new(7.0, 0.0)));
+    let flight = flown(&fleet);
+    assert!(flight.is_down && vetoed(&flight, 1, Veto::Crowded), "{flight:?}");
+    assert!(flight.nearest_m() > 1.8, "{flight:?}");
+    for seed in [2911, 10_227] {
+        let flight = flown(&Fleet::random(seed));
+        assert!(flight.keeps_apart(), "{seed}: {flight:?}");
+    }
+}
+
 /// Without knowing where the others are nobody takes off.
 #[test]
 fn nobody_takes_off_who_does_not_hear_the_others() {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{Plan, PlanError, TagUse, ZOrigin};
-use autopilot::separation::{MAX_NEIGHBOURS, kept_m};
+use autopilot::separation::{MAX_NEIGHBOURS, unsure_m};
 use autopilot::vehicle::{CannotFly, VehicleConfig, VehicleName};
 use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText};
 use kinematics::Pose;
@@ -320,12 +320,11 @@ fn start_findings<'a>(
         let pair =
             format!("{name} and {} start {apart_m:.2} m from each other", other.name.get_ref());
         let separation_m = config.separation_m;
-        let keep_m = kept_m(separation_m, [start.deviation_m, there.deviation_m]);
-        if apart_m < keep_m {
+        let unsure_m = unsure_m([start.deviation_m, there.deviation_m]);
+        if apart_m < separation_m + unsure_m {
             let (known, help) = if apart_m < separation_m {
                 (String::new(), "put them further apart, or give a smaller `separation_m`")
             } else {
-                let unsure_m = keep_m - separation_m;
                 (
                     format!(", give or take {unsure_m:.2} m"),
                     "measure their starts more exactly, put them further apart, or give a smaller `separation_m`",

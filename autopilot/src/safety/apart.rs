@@ -97,7 +97,13 @@ impl Apart {
         self.claim = aside.or(Some(own).filter(|_| is_held_up && !waits));
         let goal_m = aside.map_or(if waits { here_m } else { target_m }, |aside| aside.to_m);
         let past_m = way_past(here_m, goal_m, others, border);
-        let wanted_m_s = course.velocity_to(&past_m, limits).cap_magnitude(limits.speed_m_s);
+        // Every way may lead to one that may be anywhere: it stays, and lands if that lasts.
+        let stays = others.iter().any(|other| other.is_anywhere(here_m));
+        let wanted_m_s = if stays {
+            Vector2::zeros()
+        } else {
+            course.velocity_to(&past_m, limits).cap_magnitude(limits.speed_m_s)
+        };
         let foremost_m = course.position_m;
         let nearer = |other: &Other| {
             let [here, there] = [other.wall(here_m), other.wall(foremost_m)];
@@ -112,7 +118,8 @@ impl Apart {
         let is_trapped = kept_m_s == Vector2::zeros();
         let kept_m_s = if is_trapped { straight_on_m_s(wanted_m_s, all) } else { kept_m_s };
         let back = |wall: Wall| wall.outward * (wall.distance_m * BACK_1_S).clamp(-BACK_M_S, 0.0);
-        let back_m_s = lines.map(back).sum::<Vector2<f64>>().cap_magnitude(BACK_M_S);
+        let known = others.iter().filter(|other| !other.is_anywhere(here_m)).map(nearer);
+        let back_m_s = known.map(back).sum::<Vector2<f64>>().cap_magnitude(BACK_M_S);
         let led_m_s = if back_m_s == Vector2::zeros() {
             kept_m_s
         } else {
@@ -120,7 +127,7 @@ impl Apart {
         };
         course.advance(led_m_s, limits, now.tick_s);
         course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
-        if is_stopped || past_m != target_m || (led_m_s - wanted_m_s).norm() > TOLD_M_S {
+        if is_stopped || stays || past_m != target_m || (led_m_s - wanted_m_s).norm() > TOLD_M_S {
             self.told_until = now.now + TOLD;
         }
         (AgentCommand::GoTo(target), now.now < self.told_until)
