@@ -9,7 +9,9 @@ use autopilot::vehicle::{Heading, Horizontal, Vertical};
 use kinematics::Sticks;
 use mock_drone::scenario::Scenario;
 use nalgebra::Vector2;
-use system_tests::fleet::{Falsehood, Fleet, FleetFlight, Lie, Member, NEAREST_M, crossing};
+use system_tests::fleet::{
+    Falsehood, Fleet, FleetFlight, Lie, Member, NEAREST_M, Partition, crossing,
+};
 use system_tests::plan;
 
 const LIMIT: Duration = Duration::from_mins(4);
@@ -225,6 +227,34 @@ fn a_silence_lands_those_that_cannot_be_kept_apart() {
         assert_eq!(member.outcome, Some(Outcome::Failsafe { reason }));
     }
     assert!(silence(12, 1).is_complete(), "a short one is no danger");
+}
+
+/// One falls silent, as if its program was killed. It may have come 3 m nearer in each second, wherever it is in truth: the
+/// others fly on until it can have come to them, however far that is.
+#[test]
+fn a_silence_lands_others_when_who_is_silent_can_have_come_to_them() {
+    let hovers = |x_m, y_m, stay_s| ([x_m, y_m], [x_m, y_m], stay_s);
+    let flights =
+        [hovers(-9.0, 0.0, 60), hovers(0.0, 0.0, 60), hovers(9.0, 0.0, 60), hovers(9.0, 4.0, 4)];
+    let mut fleet = from_to([100.0, 100.0], &flights, 1);
+    let silent_s = 9_u32;
+    let cut =
+        |by| Partition { of: 0, by, at: [Duration::from_secs(silent_s.into()), Duration::MAX] };
+    fleet.air.partitions = (1..4).map(cut).collect();
+    let flight = flown(&fleet);
+    let [silent, near, far, ends] = &flight.members[..] else { panic!("{flight:?}") };
+    assert!(flight.keeps_apart() && silent.is_complete(), "{flight:?}");
+    for (member, away_m) in [(near, 9.0), (far, 18.0)] {
+        let reason = "another vehicle was too near, or silent".to_owned();
+        assert_eq!(member.outcome, Some(Outcome::Failsafe { reason }));
+        let lands =
+            |(_, event): &&(Duration, FlightEvent)| *event == FlightEvent::Veto(Veto::Crowded);
+        let after_s =
+            member.events.iter().find(lands).unwrap().0.as_secs_f64() - f64::from(silent_s);
+        let reached_s = away_m / 3.0;
+        assert!((reached_s..reached_s + 2.0).contains(&after_s), "{away_m}: {after_s}");
+    }
+    assert!(ends.is_complete(), "its plan ends before: {ends:?}");
 }
 
 /// Whoever tells that it is where it cannot have got to is avoided where it may be.

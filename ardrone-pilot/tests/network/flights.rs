@@ -22,13 +22,27 @@ const NEAREST_M: f64 = 0.8;
 /// Longest flight.
 const PATIENCE: Duration = Duration::from_secs(150);
 
-/// Two machines, with a program and a simulated drone on each. The drones are in one air.
-struct Room {
-    lab: Lab,
-    mocks: [MockDrone; 2],
-    starts_m: [Vector2<f64>; 2],
-    headings_deg: [f64; 2],
-    pilots: [Pilot; 2],
+/// A third vehicle, which hovers far away from the other two.
+const FAR: &str = r#"
+[fence]
+radius_m = 100.0
+
+[[vehicle]]
+name = "far"
+start = [0.0, 90.0, 0]
+plan = "far.txt"
+"#;
+const FAR_PLAN: &str = "takeoff\nsetStayTime 60\ngoto 0 90 0 0\nland\n";
+
+/// A program: on which of the two machines it runs, and which vehicles it flies.
+pub(crate) type Program<'a> = (usize, &'a [&'a str]);
+
+/// Two machines, with programs on them that fly a fleet of simulated drones. The drones are in one air.
+pub(crate) struct Room<const N: usize> {
+    pub(crate) lab: Lab,
+    mocks: Vec<MockDrone>,
+    starts_m: Vec<Vector2<f64>>,
+    pub(crate) pilots: [Pilot; N],
     nearest_m: f64,
     folder: tempfile::TempDir,
 }
@@ -36,90 +50,105 @@ struct Room {
 /// A program's exit status, and what it said.
 type Ended = (Option<i32>, Vec<Value>);
 
-impl Room {
-    fn new(protocol: &str) -> Option<Self> {
-        Self::with(protocol, str::to_owned)
-    }
+/// The fleet of two, with a program and a drone on each machine, and a bad network between them.
+const TWO: [Program<'static>; 2] = [(0, &["left"]), (1, &["right"])];
 
-    /// With a change of the fleet's file.
-    fn with(protocol: &str, change: impl FnOnce(&str) -> String) -> Option<Self> {
+fn two(protocol: &str) -> Option<Room<2>> {
+    let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
+    Room::new(protocol, &text, TWO)
+}
+
+impl<const N: usize> Room<N> {
+    /// Flies a fleet with these programs; `text` is that of its file. All programs connect to the first one.
+    pub(crate) fn new(protocol: &str, text: &str, programs: [Program<'_>; N]) -> Option<Self> {
         let mut lab = Lab::new()?;
         lab.wire(50, 0.1);
         let folder = tempfile::tempdir().unwrap();
-        for file in ["left.txt", "right.txt"] {
-            std::fs::copy(fleets().join(file), folder.path().join(file)).unwrap();
+        for plan in ["left.txt", "right.txt"] {
+            std::fs::copy(fleets().join(plan), folder.path().join(plan)).unwrap();
         }
-        let fleet = Fleet::read(&fleets().join("two.toml"), ZOrigin::Hover).unwrap();
-        let air = Air::default();
-        let mocks = [0, 1].map(|end| {
-            let world = fleet.members[end].world();
-            lab.on(end, || MockDrone::start_in(&air, &world, Ports::LOOPBACK)).unwrap()
-        });
-        // Both machines read the same file.
-        let mut text = change(&std::fs::read_to_string(fleets().join("two.toml")).unwrap());
-        for (mock, address) in mocks.iter().zip(["192.168.1.10", "192.168.1.11"]) {
-            let Ports { at, navdata, control, .. } = mock.ports();
-            let ports =
-                format!("at_port = {at}\nnavdata_port = {navdata}\ncontrol_port = {control}");
-            let drone = format!("drone = \"{address}\"");
-            assert!(text.contains(&drone));
-            text = text.replace(&drone, &format!("drone = \"127.0.0.1\"\n{ports}"));
-        }
-        let path = folder.path().join("two.toml");
+        std::fs::write(folder.path().join("far.txt"), FAR_PLAN).unwrap();
+        let path = folder.path().join("fleet.toml");
         std::fs::write(&path, text).unwrap();
-        let pilots = [0, 1].map(|end| {
-            let listen = format!("{protocol}/{}:7447", ADDRESSES[end]);
-            let connect = format!("{protocol}/{}:7447", ADDRESSES[1 - end]);
-            // One connects, the other one waits for it.
-            let net = folder.path().join(format!("{}.json5", NAMES[end]));
-            std::fs::write(&net, zenoh(&listen, (end == 1).then_some(&connect))).unwrap();
+        let fleet = Fleet::read(&path, ZOrigin::Hover).unwrap();
+        let mut mocks = Vec::new();
+        let mut starts_m = Vec::new();
+        let mut file: toml::Table = text.parse().unwrap();
+        let tables = file["vehicle"].as_array_mut().unwrap();
+        let air = Air::default();
+        for (member, table) in fleet.members.iter().zip(tables) {
+            let flies = |(_, names): &&Program<'_>| names.contains(&member.config.name.as_str());
+            let (end, _) = programs.iter().find(flies).unwrap();
+            let start = || MockDrone::start_in(&air, &member.world(), Ports::LOOPBACK);
+            let mock = lab.on(*end, start).unwrap();
+            let Ports { at, navdata, control, .. } = mock.ports();
+            let table = table.as_table_mut().unwrap();
+            table.insert("drone".to_owned(), "127.0.0.1".into());
+            for (key, port) in
+                [("at_port", at), ("navdata_port", navdata), ("control_port", control)]
+            {
+                table.insert(key.to_owned(), i64::from(port).into());
+            }
+            mocks.push(mock);
+            let start = member.config.estimator.start.unwrap();
+            assert!(start.heading_deg == 0.0, "places are turned otherwise");
+            starts_m.push(start.place_m);
+        }
+        // All machines read the same file.
+        std::fs::write(&path, file.to_string()).unwrap();
+        let address = |number: usize| {
+            let (end, _) = programs[number];
+            format!("{protocol}/{}:{}", ADDRESSES[end], 7447 + number)
+        };
+        let pilots = std::array::from_fn(|number| {
+            let (end, names) = programs[number];
+            // One waits for the others, which connect to it.
+            let connect = (number > 0).then(|| address(0));
+            let net = folder.path().join(format!("{number}.json5"));
+            std::fs::write(&net, zenoh(&address(number), connect.as_deref())).unwrap();
             let mut command = lab.command(end, &program());
-            command.arg("fleet").arg(&path).args(["--json", "--no-log", "--vehicle", NAMES[end]]);
-            Pilot::start(command.arg("--net").arg(&net))
+            command.arg("fleet").arg(&path).args(["--json", "--no-log", "--net"]).arg(&net);
+            for name in names {
+                command.args(["--vehicle", name]);
+            }
+            Pilot::start(&mut command)
         });
-        let starts = [0, 1].map(|end| fleet.members[end].config.estimator.start.unwrap());
-        Some(Self {
-            lab,
-            mocks,
-            starts_m: starts.map(|start| start.place_m),
-            headings_deg: starts.map(|start| start.heading_deg),
-            pilots,
-            nearest_m: f64::INFINITY,
-            folder,
-        })
+        Some(Self { lab, mocks, starts_m, pilots, nearest_m: f64::INFINITY, folder })
     }
 
-    /// Where both are in truth; nothing of one on the ground.
-    fn places_m(&self) -> [Option<Vector2<f64>>; 2] {
-        let turned = self.headings_deg.iter().any(|heading_deg| *heading_deg != 0.0);
-        assert!(!turned, "places are turned otherwise");
-        [0, 1].map(|end| {
-            let truth = self.mocks[end].truth();
+    /// Where all are in truth; nothing of one on the ground.
+    pub(crate) fn places_m(&self) -> Vec<Option<Vector2<f64>>> {
+        let place_m = |(mock, start_m): (&MockDrone, &Vector2<f64>)| {
+            let truth = mock.truth();
             let is_up = truth.position_m.z > 0.1;
-            is_up.then(|| self.starts_m[end] + truth.position_m.xy())
-        })
+            is_up.then(|| start_m + truth.position_m.xy())
+        };
+        self.mocks.iter().zip(&self.starts_m).map(place_m).collect()
     }
 
     /// Watches the truth until something is so.
-    fn watch(&mut self, mut is_so: impl FnMut(&mut Self) -> bool) {
+    pub(crate) fn watch(&mut self, mut is_so: impl FnMut(&mut Self) -> bool) {
         let start = Instant::now();
         while !is_so(self) {
             assert!(
                 start.elapsed() < PATIENCE,
                 "{:?}",
-                self.mocks.each_ref().map(MockDrone::truth)
+                self.mocks.iter().map(MockDrone::truth).collect::<Vec<_>>()
             );
-            if let [Some(left), Some(right)] = self.places_m() {
-                self.nearest_m = self.nearest_m.min((left - right).norm());
+            let up: Vec<Vector2<f64>> = self.places_m().into_iter().flatten().collect();
+            for (number, one) in up.iter().enumerate() {
+                let others = up.iter().skip(number + 1);
+                let nearest_m = others.map(|other| (one - other).norm()).fold(f64::MAX, f64::min);
+                self.nearest_m = self.nearest_m.min(nearest_m);
             }
             std::thread::sleep(Duration::from_millis(5));
         }
     }
 
-    /// Until both fly towards each other, and are so near.
+    /// Until the first two fly towards each other, and are so near.
     fn until_they_meet(&mut self, away_m: f64) {
-        self.watch(|room| match room.places_m() {
-            [Some(left), Some(right)] => (left - right).norm() < away_m,
+        self.watch(|room| match room.places_m()[..] {
+            [Some(left), Some(right), ..] => (left - right).norm() < away_m,
             _ => false,
         });
     }
@@ -129,8 +158,8 @@ impl Room {
         self.watch(|_| start.elapsed() >= time);
     }
 
-    /// Until all programs have ended and both drones are on the ground; how that was.
-    fn until_the_end(mut self) -> ([Ended; 2], f64) {
+    /// Until all programs have ended and all drones are on the ground; how that was.
+    pub(crate) fn until_the_end(mut self) -> ([Ended; N], f64) {
         self.watch(|room| {
             let is_down = |mock: &MockDrone| {
                 matches!(mock.truth().phase, Phase::Landed) && mock.truth().position_m.z < 0.1
@@ -147,7 +176,7 @@ impl Room {
 #[test]
 fn two_change_places_over_a_bad_network() {
     for protocol in ["tcp", "udp"] {
-        let Some(room) = Room::new(protocol) else { return };
+        let Some(room) = two(protocol) else { return };
         let ([(left, left_said), (right, right_said)], nearest_m) = room.until_the_end();
         eprintln!("{protocol}: nearest {nearest_m:.2} m");
         assert_eq!((left, right), (Some(0), Some(0)), "{:?}", left_said.last());
@@ -169,7 +198,7 @@ fn two_change_places_over_a_bad_network() {
 /// Both land, or go on when they hear each other again; what was held back by then is not taken for news.
 #[test]
 fn a_partition_in_flight_brings_nobody_together() {
-    let Some(mut room) = Room::new("tcp") else { return };
+    let Some(mut room) = two("tcp") else { return };
     room.until_they_meet(4.0);
     room.lab.wire(50, 1.0);
     room.watch_for(Duration::from_secs(5));
@@ -187,10 +216,10 @@ fn a_partition_in_flight_brings_nobody_together() {
 /// TCP keeps what it could not deliver, and may bring it when it can; that is not taken for news.
 #[test]
 fn after_a_partition_they_hear_each_other_again() {
-    let without_plans = |text: &str| {
-        text.lines().filter(|line| !line.starts_with("plan =")).collect::<Vec<_>>().join("\n")
-    };
-    let Some(mut room) = Room::with("tcp", without_plans) else { return };
+    let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
+    let without_plans: Vec<&str> =
+        text.lines().filter(|line| !line.starts_with("plan =")).collect();
+    let Some(mut room) = Room::new("tcp", &without_plans.join("\n"), TWO) else { return };
     let came = |said: &[Value]| {
         said.iter().filter(|it| it["type"] == "network" && it["heard"] == true).count()
     };
@@ -218,7 +247,7 @@ fn after_a_partition_they_hear_each_other_again() {
 /// Its drone lands by itself, and nobody hears of it any more.
 #[test]
 fn a_program_that_is_killed_in_flight_brings_nobody_together() {
-    let Some(mut room) = Room::new("tcp") else { return };
+    let Some(mut room) = two("tcp") else { return };
     room.until_they_meet(4.0);
     room.pilots[1].kill();
     let ([(left, said), (right, _)], nearest_m) = room.until_the_end();
@@ -227,6 +256,31 @@ fn a_program_that_is_killed_in_flight_brings_nobody_together() {
     assert!(matches!(left, Some(0 | 40)), "{left:?} {:?}", said.last());
     assert_eq!(right, None, "killed");
     assert!(has_told(&said, "heard", &json!(false)));
+}
+
+/// Who is not heard may have come 3 m nearer in each second: not to the other two before the end of their plans. It is the
+/// third one's program to which the others connect: they go on hearing each other without it.
+#[test]
+fn a_program_that_is_killed_in_flight_keeps_nobody_from_its_plan_who_is_far_away() {
+    let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
+    let programs: [Program<'_>; 3] = [(0, &["far"]), (0, &["left"]), (1, &["right"])];
+    let Some(mut room) = Room::new("tcp", &(text + FAR), programs) else { return };
+    room.until_they_meet(4.0);
+    assert!(room.places_m()[2].is_some(), "it flies");
+    room.pilots[0].kill();
+    let ([(far, _), left, right], nearest_m) = room.until_the_end();
+    eprintln!("nearest {nearest_m:.2} m");
+    assert_eq!(far, None, "killed");
+    // In truth; they had to keep apart, and did it while the third one was gone.
+    assert!((NEAREST_M..4.0).contains(&nearest_m), "{nearest_m}");
+    for (status, said) in [left, right] {
+        assert_eq!(status, Some(0), "{:?}", said.last());
+        let end = said.iter().find(|object| object["type"] == "end").unwrap();
+        assert!(end["steps_done"] == end["steps"] && end["steps"] == 3, "{end}");
+        let gone = |object: &&Value| object["type"] == "network" && object["heard"] == false;
+        let gone: Vec<&Value> = said.iter().filter(gone).map(|object| &object["vehicle"]).collect();
+        assert_eq!(gone.first(), Some(&&json!("far")), "{gone:?}");
+    }
 }
 
 /// Somebody looks on, by a program in Python.
