@@ -8,6 +8,7 @@
     reason = "what is skipped, and measured, is said"
 )]
 
+mod agents;
 mod bridges;
 mod flights;
 mod lab;

@@ -30,7 +30,8 @@ pub(crate) fn zenoh(listen: &str, connect: Option<&str>) -> String {
 /// One that flies, and writes JSON. It is killed when this is dropped.
 pub(crate) struct Pilot {
     child: Child,
-    said: Arc<Mutex<Vec<Value>>>,
+    /// With when it was read.
+    said: Arc<Mutex<Vec<(Instant, Value)>>>,
     reader: Option<JoinHandle<()>>,
 }
 
@@ -43,19 +44,24 @@ impl Pilot {
             .spawn()
             .unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap()).lines();
-        let said = Arc::<Mutex<Vec<Value>>>::default();
+        let said = Arc::<Mutex<Vec<(Instant, Value)>>>::default();
         let read = Arc::clone(&said);
         let reader = std::thread::spawn(move || {
             // A program that is killed leaves half a line.
             let objects = lines.map_while(Result::ok);
             let objects = objects.filter_map(|line| serde_json::from_str(&line).ok());
-            objects.for_each(|object| read.lock().unwrap().push(object));
+            objects.for_each(|object| read.lock().unwrap().push((Instant::now(), object)));
         });
         Self { child, said, reader: Some(reader) }
     }
 
     /// All that it has said.
     pub(crate) fn said(&self) -> Vec<Value> {
+        self.said.lock().unwrap().iter().map(|(_, object)| object.clone()).collect()
+    }
+
+    /// The same, with when it was read.
+    pub(crate) fn said_at(&self) -> Vec<(Instant, Value)> {
         self.said.lock().unwrap().clone()
     }
 
@@ -63,10 +69,11 @@ impl Pilot {
     pub(crate) fn until(&self, patience: Duration, wanted: impl Fn(&Value) -> bool) -> Value {
         let start = Instant::now();
         loop {
-            if let Some(object) = self.said.lock().unwrap().iter().find(|object| wanted(object)) {
+            let said = self.said();
+            if let Some(object) = said.iter().find(|object| wanted(object)) {
                 return object.clone();
             }
-            assert!(start.elapsed() < patience, "{:?}", self.said.lock().unwrap().last());
+            assert!(start.elapsed() < patience, "{:?}", said.last());
             std::thread::sleep(Duration::from_millis(20));
         }
     }
