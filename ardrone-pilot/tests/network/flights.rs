@@ -213,13 +213,42 @@ fn a_partition_in_flight_brings_nobody_together() {
     }
 }
 
-/// TCP keeps what it could not deliver, and may bring it when it can; that is not taken for news.
+/// What TCP could not deliver in a partition it delivers when it tries again, in the order in which it was told, before what is
+/// new: too old by then, and refused.
+///
+/// It tries again after twice the time that it has waited before: within 8 s and a bit, if it begins after 4 s. Zenoh gives up a
+/// connection that has been silent for 10 s. What still waits in it then never arrives: this is so after a longer partition, in
+/// which it depends on some 100 ms which of the two comes first.
 #[test]
-fn after_a_partition_they_hear_each_other_again() {
+fn what_has_waited_in_a_partition_is_refused_as_too_old() {
+    for (status, said) in cut(Duration::from_secs(4)).into_iter().flatten() {
+        assert_eq!(status, Some(0));
+        // Twenty a second, for two seconds and what TCP has waited for longer.
+        let count = refused(&said, "too_old");
+        assert!((30..200).contains(&count), "{count}: {:?}", said.last());
+        assert_eq!(refused(&said, "out_of_order"), 0, "{:?}", said.last());
+        // It is told once, as a warning.
+        let told = said.iter().filter(|it| it["refused"] == "too_old" && it["warning"] == true);
+        assert_eq!(told.count(), 1);
+    }
+}
+
+/// After a partition that is longer than Zenoh waits.
+#[test]
+fn after_a_long_partition_they_hear_each_other_again() {
+    for (status, _) in cut(Duration::from_secs(12)).into_iter().flatten() {
+        assert_eq!(status, Some(0));
+    }
+}
+
+/// Two on the ground that hear nothing for so long, and each other again; what their programs said until their end.
+fn cut(time: Duration) -> Option<[Ended; 2]> {
     let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
     let without_plans: Vec<&str> =
         text.lines().filter(|line| !line.starts_with("plan =")).collect();
-    let Some(mut room) = Room::new("tcp", &without_plans.join("\n"), TWO) else { return };
+    let mut room = Room::new("tcp", &without_plans.join("\n"), TWO)?;
+    // What is lost before lets TCP wait for longer.
+    room.lab.wire(50, 0.0);
     let came = |said: &[Value]| {
         said.iter().filter(|it| it["type"] == "network" && it["heard"] == true).count()
     };
@@ -227,21 +256,22 @@ fn after_a_partition_they_hear_each_other_again() {
     for pilot in &room.pilots {
         pilot.until(patience, |object| object["type"] == "network" && object["heard"] == true);
     }
+    room.watch_for(Duration::from_secs(2));
     room.lab.wire(50, 1.0);
-    room.watch_for(Duration::from_secs(6));
+    room.watch_for(time);
     room.lab.wire(50, 0.0);
     room.watch(|room| room.pilots.iter().all(|pilot| came(&pilot.said()) == 2));
     room.watch_for(Duration::from_secs(1));
     room.pilots.iter_mut().for_each(Pilot::quit);
     let (ended, _) = room.until_the_end();
-    for (status, said) in &ended {
-        assert_eq!(*status, Some(0));
+    for (_, said) in &ended {
         assert!(has_told(said, "heard", &json!(false)));
         eprintln!("{}", said.last().unwrap()["network"]);
         for why in ["clock", "absurd", "malformed", "two_programs"] {
             assert_eq!(refused(said, why), 0, "{:?}", said.last());
         }
     }
+    Some(ended)
 }
 
 /// Its drone lands by itself, and nobody hears of it any more.
