@@ -14,7 +14,8 @@ use nalgebra::Vector2;
 use zenoh::Wait as _;
 
 use crate::flights::own_address;
-use crate::pilot::zenoh;
+use crate::lab::Lab;
+use crate::pilot::{Pilot, fleets, program, zenoh};
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -296,6 +297,33 @@ fn with_passwords_only_who_has_one_is_heard() {
     };
     assert!(hear("pear", PATIENCE));
     assert!(!hear("plum", Duration::from_secs(4)));
+}
+
+/// The port at which Zenoh looks for others by multicast, and the group, as the kernel writes them.
+const SCOUTING: [(&str, &str); 2] = [("udp", ":1D16 "), ("igmp", "E00000E0")];
+
+/// What a program does without being told would have it find, and be found by, whoever is in the same network.
+#[test]
+fn others_are_looked_for_by_multicast_only_if_the_file_says_so() {
+    let Some(lab) = Lab::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (text, is_wanted) in [
+        ("{ mode: \"peer\" }", false),
+        ("{ scouting: { gossip: { enabled: true } } }", false),
+        ("{ mode: \"peer\", scouting: { multicast: { enabled: true } } }", true),
+    ] {
+        let net = written(&folder, "net.json5", text);
+        let mut command = lab.command(0, &program());
+        command.arg("fleet").arg(fleets().join("two.toml")).args(["--mock", "--json", "--no-log"]);
+        let pilot = Pilot::start(command.args(["--vehicle", "left", "--net"]).arg(net));
+        // It flies, so that the network is there.
+        pilot.until(PATIENCE, |object| object["type"] == "status");
+        for (file, entry) in SCOUTING {
+            let path = format!("/proc/{}/net/{file}", pilot.id());
+            let open = std::fs::read_to_string(path).unwrap();
+            assert_eq!(open.contains(entry), is_wanted, "{text}, {file}: {open}");
+        }
+    }
 }
 
 #[test]

@@ -83,6 +83,10 @@ impl Pilot {
         drop(self.child.stdin.take());
     }
 
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     pub(crate) fn kill(&mut self) {
         self.child.kill().unwrap();
     }
