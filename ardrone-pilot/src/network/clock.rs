@@ -63,6 +63,11 @@ impl Bound {
         }
     }
 
+    /// Whether a stamp of ours was answered, so that something is known of an age.
+    pub fn has_answer(&self) -> bool {
+        self.least.is_some()
+    }
+
     fn least_us(&self, now: Duration) -> Option<i64> {
         self.least.map(|known| known.distance_us.saturating_sub(known.parted_us(now)))
     }

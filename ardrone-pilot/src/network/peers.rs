@@ -12,10 +12,9 @@ use super::state::{Echo, MOST_ECHOES, Session, State};
 
 /// What may be older is not believed: as old as what makes a vehicle silent (`autopilot::separation`).
 pub const TOO_OLD: Duration = Duration::from_secs(2);
-/// Most programs whose clocks are remembered: one for each vehicle, and as many that were started again.
+/// Most programs whose clocks are remembered, of which there are more than vehicles: anybody can make up numbers. Each is answered
+/// in one of eleven states.
 const MOST_SESSIONS: usize = 64;
-/// Who has not been heard for so long is forgotten if there is no room for another one.
-const FORGOTTEN: Duration = Duration::from_secs(10);
 
 /// What the programs of a fleet tell each other, as one of them hears it. Times are of its own clock, from its beginning.
 #[derive(Debug, Clone)]
@@ -52,6 +51,12 @@ struct Last {
     received: Duration,
     /// It stays where it is, whether its program runs or not.
     is_parked: bool,
+}
+
+impl Last {
+    fn is_heard(&self, now: Duration) -> bool {
+        self.is_parked || now.saturating_sub(self.received) < TOO_OLD
+    }
 }
 
 /// A state that is believed.
@@ -195,7 +200,7 @@ impl Peers {
     /// Takes in the stamps of a state; returns what is known of its clock.
     fn compare_clocks(&mut self, now: Duration, state: &State) -> Result<Bound, Refused> {
         let (own, stamped) = (self.own, self.stamped);
-        let known = self.known(now, state)?;
+        let known = self.known(now, state);
         if state.sent > known.sent {
             (known.sent, known.received) = (state.sent, now);
         }
@@ -215,24 +220,37 @@ impl Peers {
         Ok(known.bound)
     }
 
-    fn known(&mut self, now: Duration, state: &State) -> Result<&mut Known, Refused> {
+    /// What is known of a state's program. A new one has the place of another one, if there is no room: never of one that is
+    /// believed now; of one that has answered only if all others have; and then of the one that was heard least lately.
+    ///
+    /// So nobody can keep out a program that is started again by making up numbers of others: what it sends is compared when it
+    /// arrives, and it is answered if it is still known when the next states are told, or the ones after that.
+    fn known(&mut self, now: Duration, state: &State) -> &mut Known {
         let session = state.session;
+        let new = Known { session, sent: state.sent, received: now, bound: Bound::default() };
         let known = self.sessions.iter().position(|known| known.session == session);
-        let place = if let Some(place) = known {
-            place
-        } else {
-            if self.sessions.len() >= MOST_SESSIONS {
-                let is_new = |known: &Known| now.saturating_sub(known.received) < FORGOTTEN;
-                self.sessions.retain(is_new);
+        let place = known.unwrap_or_else(|| {
+            let least = if self.sessions.len() < MOST_SESSIONS { None } else { self.least(now) };
+            if let Some(place) = least {
+                self.sessions[place] = new;
+                return place;
             }
-            if self.sessions.len() >= MOST_SESSIONS {
-                return Err(Refused::TooManyPrograms);
-            }
-            let (sent, bound) = (state.sent, Bound::default());
-            self.sessions.push(Known { session, sent, received: now, bound });
+            // No more than are believed, which are as many as vehicles.
+            self.sessions.push(new);
             self.sessions.len() - 1
+        });
+        &mut self.sessions[place]
+    }
+
+    /// The place of the program that matters least among those that are not believed now.
+    fn least(&self, now: Duration) -> Option<usize> {
+        let is_believed = |session| {
+            let tells = |last: &Last| last.session == session && last.is_heard(now);
+            self.last.iter().flatten().any(tells)
         };
-        Ok(&mut self.sessions[place])
+        let others = self.sessions.iter().enumerate().filter(|(_, it)| !is_believed(it.session));
+        let least = others.min_by_key(|(_, known)| (known.bound.has_answer(), known.received));
+        least.map(|(place, _)| place)
     }
 
     /// Counts what was refused; returns whether an operator is to be told: of each kind once for each vehicle.
@@ -259,8 +277,7 @@ impl Peers {
     pub fn changes(&mut self, now: Duration) -> Vec<Change> {
         let mut changes = Vec::new();
         for place in self.roster.places(false) {
-            let is_heard = self.last[place]
-                .is_some_and(|last| last.is_parked || now.saturating_sub(last.received) < TOO_OLD);
+            let is_heard = self.last[place].is_some_and(|last| last.is_heard(now));
             if std::mem::replace(&mut self.is_heard[place], is_heard) != is_heard {
                 changes.push(Change { vehicle: self.roster.vehicles[place].name, is_heard });
             }
@@ -486,23 +503,74 @@ mod tests {
         assert!((15 * MS..16 * MS).contains(&heard.age), "{heard:?}");
     }
 
-    #[test]
-    fn strangers_cannot_take_all_places() {
-        let mut pair = Pair::acquainted();
-        let text = pair.right_text(1100 * MS);
-        for number in 100..200 {
-            let text = changed(&text, "session", json!(format!("{number:016x}")));
-            let heard = pair.left_hears(1105 * MS, &text);
-            let expected =
-                if number < 100 + 63 { Refused::TwoPrograms } else { Refused::TooManyPrograms };
-            assert_eq!(heard, Err(expected), "{number}");
+    /// So many states as of the right vehicle, each of a program that nobody has heard before, and that answers nobody.
+    fn strangers_at(at: Duration, text: &str, heard: &Value, peers: &mut Peers, key: &str) {
+        for number in 0..30 {
+            let session = json!(format!("{:08x}{number:08x}", at.as_millis()));
+            let text = changed(&changed(text, "session", session), "heard", heard.clone());
+            assert!(peers.hear(at, key, text.as_bytes()).is_err());
         }
-        assert!(pair.left_hears(1110 * MS, &text).is_ok());
-        // All are answered in turn, so also those that are no strangers.
-        let answered: Vec<String> = (0..12)
-            .map(|n| pair.left.tell(n * MS + 1200 * MS, 0, neighbour(1, MS, 0.0), false).unwrap())
-            .collect();
-        assert!(answered.concat().contains("0000000000000002"));
+    }
+
+    #[test]
+    fn strangers_take_no_place_of_who_is_believed_and_keep_nobody_out() {
+        for answer in [false, true] {
+            let mut pair = Pair::acquainted();
+            // The strangers may have heard the left program, and answer it.
+            let own =
+                json!([{ "session": "0000000000000001", "sent_us": 1_000_000, "held_us": 0 }]);
+            let heard = if answer { own } else { json!([]) };
+            let text = pair.right_text(1040 * MS);
+            for tick in 0..20 {
+                strangers_at((1050 + tick) * MS, &text, &heard, &mut pair.left, RIGHT);
+            }
+            assert_eq!(pair.left.sessions.len(), MOST_SESSIONS);
+            let text = changed(&pair.right_text(1100 * MS), "heard", json!([]));
+            assert!(
+                pair.left_hears(1110 * MS, &text).is_ok(),
+                "what is known of its clock is kept"
+            );
+            // It is started again, and hears and answers one state of the left one.
+            pair.right = Peers::new(two(&["right"]), Session(3));
+            _ = pair.left_tells(3300 * MS, 5 * MS);
+            let text = pair.right_text(3310 * MS);
+            assert!(pair.left_hears(3320 * MS, &text).is_ok());
+            assert_eq!(pair.left.counts(), []);
+        }
+    }
+
+    /// Who has answered goes last.
+    #[test]
+    fn who_has_answered_is_kept_longer_than_who_has_not() {
+        let mut pair = Pair::acquainted();
+        let text = pair.right_text(1040 * MS);
+        assert!(pair.left_hears(1045 * MS, &text).is_ok());
+        let unanswered = changed(&pair.right_text(9000 * MS), "heard", json!([]));
+        strangers_at(9000 * MS, &text, &json!([]), &mut pair.left, RIGHT);
+        strangers_at(9001 * MS, &text, &json!([]), &mut pair.left, RIGHT);
+        strangers_at(9002 * MS, &text, &json!([]), &mut pair.left, RIGHT);
+        assert!(pair.left_hears(9010 * MS, &unanswered).is_ok(), "after a silence");
+    }
+
+    /// Both are told so much of strangers, 600 new ones a second, that neither hears the other at first.
+    #[test]
+    fn a_program_that_is_started_again_among_strangers_is_believed_within_two_seconds() {
+        let mut pair = Pair::acquainted();
+        pair.right = Peers::new(two(&["right"]), Session(3));
+        let (of_left, of_right) = (
+            pair.left.tell(3000 * MS, 0, neighbour(1, 3000 * MS, 0.0), false).unwrap(),
+            pair.right_text(3000 * MS),
+        );
+        let none = json!([]);
+        let believed = (0..200).find(|tick| {
+            let at = (4000 + 50 * tick) * MS;
+            strangers_at(at, &of_right, &none, &mut pair.left, RIGHT);
+            strangers_at(at + pair.ahead, &of_left, &none, &mut pair.right, LEFT);
+            let is_believed = pair.left_tells(at + 10 * MS, 5 * MS).is_ok();
+            let text = pair.right_text(at + 20 * MS);
+            pair.left_hears(at + 30 * MS, &text).is_ok() && is_believed
+        });
+        assert!(believed.is_some_and(|tick| (1..40).contains(&tick)), "{believed:?}");
     }
 
     #[test]

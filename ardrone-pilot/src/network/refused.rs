@@ -48,9 +48,6 @@ pub enum Refused {
     /// What is known of its clock contradicts itself.
     #[error("its clock has jumped")]
     Clock,
-    /// More programs tell of themselves than are remembered.
-    #[error("too many programs tell of this fleet")]
-    TooManyPrograms,
     /// More lines of agents arrive than are read.
     #[error("more lines of agents arrive than are read")]
     Full,
@@ -78,7 +75,6 @@ impl Refused {
             Self::Unanswered => "unanswered",
             Self::TooOld => "too_old",
             Self::Clock => "clock",
-            Self::TooManyPrograms => "too_many_programs",
             Self::Full => "full",
         }
     }
