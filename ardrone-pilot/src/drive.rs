@@ -47,9 +47,32 @@ pub trait Surroundings {
     }
 
     /// The agent says something to that of another vehicle.
-    fn say(&mut self, said: Said) {
+    ///
+    /// # Errors
+    /// [`NoRoom`] if it is lost here.
+    fn say(&mut self, said: Said) -> Result<(), NoRoom> {
         _ = said;
+        Ok(())
     }
+}
+
+/// Where there is no room for what an agent says, so that it is lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoRoom {
+    /// It says more in one step than is taken.
+    #[error("it says more in one step than is taken")]
+    Step,
+    /// Too many wait for the agent to which it is said.
+    #[error("too many wait for the agent of the other vehicle already")]
+    Mailbox,
+    /// Too many wait for the network.
+    #[error("too many wait for the network already")]
+    Network,
+}
+
+impl NoRoom {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Step, Self::Mailbox, Self::Network];
 }
 
 /// Takes an input; refuses as [`Vehicle::handle`].
@@ -76,6 +99,8 @@ pub enum Passed<'a> {
     Told(Telemetry),
     /// Its agent says something to that of another vehicle.
     Said(Said),
+    /// So many lines that its agent says are lost.
+    Unsaid(NoRoom, u64),
     /// Something that was said to its agent is not understood.
     Misunderstood(Misunderstood),
 }
@@ -126,6 +151,7 @@ impl<S: Surroundings> Driver<S> {
     fn deliberate(&mut self, tee: &mut impl FnMut(Duration, Passed<'_>)) {
         let Self { vehicle, surroundings, agent: Some(agent), .. } = self else { return };
         let now = surroundings.now();
+        let unsaid = agent.unsaid();
         for _ in 0..LINES_PER_TICK {
             let Some(line) = surroundings.hear() else { break };
             if let Err(problem) = agent.hear(now, &line) {
@@ -141,7 +167,13 @@ impl<S: Surroundings> Driver<S> {
         }
         for said in agent.take_said() {
             tee(now, Passed::Said(said));
-            surroundings.say(said);
+            if let Err(no_room) = surroundings.say(said) {
+                tee(now, Passed::Unsaid(no_room, 1));
+            }
+        }
+        let lost = agent.unsaid().saturating_sub(unsaid);
+        if lost > 0 {
+            tee(now, Passed::Unsaid(NoRoom::Step, lost));
         }
     }
 
@@ -305,8 +337,9 @@ impl Surroundings for Simulated {
         self.heard.pop_front()
     }
 
-    fn say(&mut self, said: Said) {
+    fn say(&mut self, said: Said) -> Result<(), NoRoom> {
         self.said.push(said);
+        Ok(())
     }
 }
 

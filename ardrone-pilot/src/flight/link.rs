@@ -11,6 +11,8 @@ use mission_agent::Misunderstood;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::set_socket_recv_buffer_size;
 
+use crate::drive::NoRoom;
+
 /// Size of the navdata socket's receive buffer. It holds fewer datagrams than a tick reads, so no datagram is
 /// ever older than one tick.
 const KEPT_BYTES: usize = 128 << 10;
@@ -35,7 +37,7 @@ impl fmt::Display for Port {
     }
 }
 
-/// A problem of the network. The flight goes on.
+/// A problem of the network, or of what agents say. The flight goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trouble {
     /// The system refused a datagram.
@@ -51,6 +53,8 @@ pub enum Trouble {
     Flood,
     /// The agent of another vehicle has said what this one does not understand.
     Misunderstood(Misunderstood),
+    /// So many lines that the agent said are lost, since that was told last.
+    Unsaid(NoRoom, u64),
 }
 
 impl fmt::Display for Trouble {
@@ -63,6 +67,10 @@ impl fmt::Display for Trouble {
             Self::Flood => f.write_str("navdata arrive faster than they can be processed"),
             Self::Misunderstood(problem) => {
                 write!(f, "the agent of another vehicle is not understood: {problem}")
+            }
+            Self::Unsaid(why, 1) => write!(f, "the agent says a line that is lost: {why}"),
+            Self::Unsaid(why, count) => {
+                write!(f, "the agent says {count} lines that are lost: {why}")
             }
         }
     }

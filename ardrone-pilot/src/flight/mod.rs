@@ -18,6 +18,7 @@ mod orders;
 mod real_time;
 mod room;
 mod said;
+mod unsaid;
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
@@ -38,6 +39,7 @@ pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
 pub use self::room::{FarAgents, Placed, Places, Seat};
 use self::said::SaidLast;
+use self::unsaid::Unsaid;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
 use crate::recording::Recorder;
@@ -310,6 +312,8 @@ struct Tee {
     misunderstood: bool,
     /// What its agent has said.
     said: SaidLast,
+    /// What of that is lost.
+    unsaid: Unsaid,
     /// Timing of the ticks since the last status.
     health: TickHealth,
 }
@@ -356,6 +360,7 @@ impl Tee {
                 let again = self.said.is_said_again(at, said);
                 self.send(Content::Said { at, said, again });
             }
+            Passed::Unsaid(why, count) => self.unsaid.add(why, count),
             Passed::Misunderstood(problem) => {
                 // Once: who does not understand one line does not understand the next one either.
                 if !std::mem::replace(&mut self.misunderstood, true) {
@@ -370,6 +375,13 @@ impl Tee {
     fn warn(&mut self, at: Duration, trouble: Trouble) {
         self.note(at, trouble.to_string());
         self.send(Content::Trouble(at, trouble));
+    }
+
+    /// Tells what of its agent's lines was lost, if that is due by then.
+    fn tell_unsaid(&mut self, at: Duration, by: Duration) {
+        while let Some((why, count)) = self.unsaid.due(by) {
+            self.warn(at, Trouble::Unsaid(why, count));
+        }
     }
 
     fn note(&mut self, at: Duration, text: String) {
@@ -404,6 +416,7 @@ impl TickLoop {
             tells_end: stay == Stay::UntilLeft,
             misunderstood: false,
             said: SaidLast::default(),
+            unsaid: Unsaid::default(),
             health: TickHealth::default(),
         };
         Self { driver: Driver::over(vehicle, surroundings), stay, tee }
@@ -459,6 +472,7 @@ impl TickLoop {
             while let Some(trouble) = driver.surroundings.poll_trouble() {
                 tee.warn(driver.now(), trouble);
             }
+            tee.tell_unsaid(driver.now(), driver.now());
             let stops = driver.surroundings.stops();
             if let Some(outcome) = self.end(stops) {
                 return outcome;
@@ -524,6 +538,7 @@ impl TickLoop {
         let now = self.driver.now();
         let Self { driver: Driver { vehicle, surroundings, .. }, tee, stay } = self;
         let report = vehicle.report().clone();
+        tee.tell_unsaid(now, Duration::MAX);
         // The vehicle has not told the end of a flight that is left; one that stays is left without a flight.
         if *stay == Stay::UntilFlown
             && vehicle.outcome().is_none()

@@ -11,7 +11,7 @@ use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
 use super::room::{FarAgents, Seat};
-use crate::drive::{Surroundings, Take};
+use crate::drive::{NoRoom, Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
 
@@ -238,10 +238,12 @@ impl Surroundings for RealTime {
         near.or_else(|| self.far_agents.as_mut()?.next_line())
     }
 
-    fn say(&mut self, said: Said) {
-        let is_near = self.seat.as_ref().is_some_and(|seat| seat.say(said));
-        if let (false, Some(far)) = (is_near, &mut self.far_agents) {
-            far.say(&said);
+    fn say(&mut self, said: Said) -> Result<(), NoRoom> {
+        match (self.seat.as_ref().and_then(|seat| seat.say(said)), &mut self.far_agents) {
+            (Some(taken), _) => taken,
+            (None, Some(far)) => far.say(&said),
+            // Nobody is there who could hear it.
+            (None, None) => Ok(()),
         }
     }
 }

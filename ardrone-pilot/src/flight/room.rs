@@ -11,13 +11,18 @@ use autopilot::vehicle::VehicleName;
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded};
 use mission_agent::{Line, Said};
 
+use crate::drive::NoRoom;
+
 /// Lines to an agent that may wait for its next tick.
 const LINES: usize = 64;
 
 /// How agents of vehicles are reached that other programs fly. It never waits.
 pub trait FarAgents: std::fmt::Debug + Send {
-    /// The vehicle's agent says something to one of them. It may be lost.
-    fn say(&mut self, said: &Said);
+    /// The vehicle's agent says something to one of them. It may be lost on the way.
+    ///
+    /// # Errors
+    /// [`NoRoom`] if it is lost here.
+    fn say(&mut self, said: &Said) -> Result<(), NoRoom>;
 
     /// The next line that one of them has said to the vehicle's agent.
     fn next_line(&mut self) -> Option<Line>;
@@ -94,13 +99,15 @@ impl Seat {
         })
     }
 
-    /// The agent says something to that of another vehicle; returns whether that one is flown here. What does not fit is lost, as
+    /// The agent says something to that of another vehicle; `None` if that one is not flown here. What does not fit is lost, as
     /// on any network.
-    pub(super) fn say(&self, Said { to, line }: Said) -> bool {
-        let Some((_, sender)) = self.boxes.iter().find(|(name, _)| name.as_str() == to) else {
-            return false;
-        };
-        !matches!(sender.try_send(line), Err(TrySendError::Disconnected(_)))
+    pub(super) fn say(&self, Said { to, line }: Said) -> Option<Result<(), NoRoom>> {
+        let (_, sender) = self.boxes.iter().find(|(name, _)| name.as_str() == to)?;
+        match sender.try_send(line) {
+            Ok(()) => Some(Ok(())),
+            Err(TrySendError::Full(_)) => Some(Err(NoRoom::Mailbox)),
+            Err(TrySendError::Disconnected(_)) => None,
+        }
     }
 
     /// Something that was said to the agent.
@@ -177,16 +184,17 @@ mod tests {
     fn what_is_said_is_heard_by_whom_it_was_said_to_and_no_more_is_kept_than_fits() {
         let mut seats = in_one_room(3);
         let line = Line::from("0123456789abcdef a tell low").unwrap();
-        for _ in 0..LINES + 5 {
-            assert!(seats[0].say(Said { to: "c", line }));
+        for number in 0..LINES + 5 {
+            let taken = if number < LINES { Ok(()) } else { Err(NoRoom::Mailbox) };
+            assert_eq!(seats[0].say(Said { to: "c", line }), Some(taken));
         }
-        assert!(!seats[0].say(Said { to: "nobody", line }));
+        assert_eq!(seats[0].say(Said { to: "nobody", line }), None);
         assert_eq!((seats[0].next_line(), seats[1].next_line()), (None, None));
         let heard = std::iter::from_fn(|| seats[2].next_line()).collect::<Vec<_>>();
         assert_eq!(heard, vec![line; LINES]);
         // Whose vehicle is not flown here has nobody who hears.
         seats.truncate(2);
-        assert!(!seats[0].say(Said { to: "c", line }));
+        assert_eq!(seats[0].say(Said { to: "c", line }), None);
     }
 
     fn at(system: u8, ms: u32, presence: Presence) -> Neighbour {

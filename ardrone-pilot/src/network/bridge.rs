@@ -16,12 +16,13 @@ use zenoh::pubsub::Publisher;
 use zenoh::qos::{CongestionControl, Priority};
 use zenoh::sample::Locality;
 
-use super::lines::{Inbox, LONGEST_LINE_BYTES, Outbox, Talk};
+use super::lines::{Inbox, LONGEST_LINE_BYTES, LineError, Outbox, Talk};
 use super::news::{News, Totals};
 use super::peers::Peers;
 use super::refused::Refused;
 use super::roster::Roster;
 use super::state::{STATE_BYTES, Session};
+use crate::drive::NoRoom;
 use crate::flight::{FarAgents, Placed, Places};
 use crate::runtime::{Runtime, Task};
 
@@ -213,10 +214,11 @@ impl Drop for Bridge {
 }
 
 impl FarAgents for Talk {
-    /// What cannot be taken is counted; names of vehicles are those of peers.
-    fn say(&mut self, Said { to, line }: &Said) {
-        if let Ok(to) = to.parse() {
-            _ = Self::say(self, to, line);
+    /// Names of vehicles are those of peers, and what an agent says is a line. Who has left the network tells nobody anything.
+    fn say(&mut self, Said { to, line }: &Said) -> Result<(), NoRoom> {
+        match to.parse().map(|to| Self::say(self, to, line)) {
+            Ok(Err(LineError::Full)) => Err(NoRoom::Network),
+            _ => Ok(()),
         }
     }
 

@@ -186,6 +186,7 @@ impl Record {
             Passed::Said(said) => Self::Said { at, said: *said },
             // The rest can be seen in the ticks.
             Passed::Misunderstood(_)
+            | Passed::Unsaid(..)
             | Passed::Input(Input::Tick | Input::Part, _)
             | Passed::Sent { transmit: Transmit::WakeUp, .. }
             | Passed::Told(_) => return None,
