@@ -99,6 +99,8 @@ pub enum Passed<'a> {
     Told(Telemetry),
     /// Its agent says something to that of another vehicle.
     Said(Said),
+    /// Something that was said to its agent, whether it understands it or not.
+    Heard(Line),
     /// So many lines that its agent says are lost.
     Unsaid(NoRoom, u64),
     /// Something that was said to its agent is not understood.
@@ -154,6 +156,7 @@ impl<S: Surroundings> Driver<S> {
         let unsaid = agent.unsaid();
         for _ in 0..LINES_PER_TICK {
             let Some(line) = surroundings.hear() else { break };
+            tee(now, Passed::Heard(line));
             if let Err(problem) = agent.hear(now, &line) {
                 tee(now, Passed::Misunderstood(problem));
             }

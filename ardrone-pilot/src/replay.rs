@@ -111,6 +111,7 @@ impl Replay {
                 }
                 Entry::Decoded(_)
                 | Entry::Tags(_)
+                | Entry::Message(_)
                 | Entry::Mission(_)
                 | Entry::Event { .. }
                 | Entry::Outcome { .. } => {}

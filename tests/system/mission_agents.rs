@@ -1,15 +1,23 @@
 //! Agents that fly missions and talk: the examples in simulated time, who has the controls, and what is proved of them.
 
+use std::collections::VecDeque;
 use std::path::Path;
 use std::time::Duration;
 
-use ardrone_pilot::drive::{self, Driver, POLL, Passed, Simulated};
+use ardrone_pilot::drive::{self, Driver, NoRoom, POLL, Passed, Simulated};
 use ardrone_pilot::fleet::{self, Fleet, Member, SimulatedFleet, SimulatedMember};
+use ardrone_pilot::flight::{Beside, Content, FarAgents, Flight, Trouble};
+use ardrone_pilot::recording::{Header, Log, Recorder};
+use ardrone_pilot::report;
+use ardrone_pilot::settings::Settings;
 use autopilot::Vehicle;
 use autopilot::outcome::Outcome;
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{Input, Operator, OperatorOrder, Refused, Station};
-use mission_agent::{Line, Said};
+use autopilot::vehicle::{Input, Operator, OperatorOrder, Refused, Station, VehicleConfig};
+use kinematics::Pose;
+use mission_agent::{Line, MissionAgent, Said};
+use mock_drone::WorldConfig;
+use mock_drone::server::{MockDrone, Ports};
 use nalgebra::Vector2;
 
 use super::processes::program;
@@ -222,6 +230,83 @@ fn lines_that_are_no_messages_are_refused_and_told() {
         driver.pass();
     }
     assert_eq!(refused, lines.len());
+}
+
+/// Another machine: it answers what it hears, with a line of its own making that is said again and again, and a line that is no
+/// message; it has no room for the first two lines.
+#[derive(Debug, Default)]
+struct Elsewhere {
+    heard: u32,
+    answers: VecDeque<Line>,
+}
+
+impl FarAgents for Elsewhere {
+    fn say(&mut self, Said { line, .. }: &Said) -> Result<(), NoRoom> {
+        self.heard += 1;
+        if self.heard <= 2 {
+            return Err(NoRoom::Network);
+        }
+        let (version, _) = line.split_once(' ').unwrap();
+        for text in [&format!("{version} keeper achieve enter"), "<script>alert(1)</script>"] {
+            self.answers.push_back(Line::from(text).unwrap());
+        }
+        Ok(())
+    }
+
+    fn next_line(&mut self) -> Option<Line> {
+        self.answers.pop_front()
+    }
+}
+
+/// What is lost is told, and all that was said and heard is in the log, and in its report.
+#[test]
+fn messages_of_a_flight_are_in_its_log_and_report_and_lost_ones_are_told() {
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("flight.mcap");
+    let config = VehicleConfig { name: "left".parse().unwrap(), ..VehicleConfig::default() };
+    let header =
+        Header { vehicle: config.name, settings: Settings::sample().unwrap(), ..Header::default() };
+    let (recorder, recording) = Recorder::start(&path, &header).unwrap();
+    // It waits where it takes off, goes a metre forward, and lands there.
+    let place = |y_m| Pose { x_m: 0.0, y_m, z_m: 0.8, yaw_deg: 0.0 };
+    let places = vec![place(0.0), place(1.0), place(1.0)];
+    let beside = Beside {
+        recorder: Some(recorder),
+        agent: Some(MissionAgent::new("traveller", "left", places, false).unwrap()),
+        far_agents: Some(Box::new(Elsewhere::default())),
+        seat: None,
+    };
+    let runtime = super::udp::runtime();
+    let flight =
+        Flight::start(&runtime, None, &config, &super::udp::address(&mock), beside).unwrap();
+    let mut lost = Vec::new();
+    for message in flight.messages() {
+        if let Content::Trouble(_, trouble @ Trouble::Unsaid(..)) = message.content {
+            lost.push(trouble);
+        }
+    }
+    assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);
+    recording.finish().unwrap();
+    // At once, and what was lost within the second after that together.
+    assert_eq!(lost, [Trouble::Unsaid(NoRoom::Network, 1); 2]);
+    let log = Log::read(&std::fs::read(&path).unwrap()).unwrap();
+    let text = "the agent says a line that is lost: too many wait for the network already";
+    assert_eq!(log.events().filter(|(.., told)| *told == text).count(), 2);
+    let page = report::html(&log, &[]).unwrap();
+    let (_, table) = page.split_once("<table id=\"events\">").unwrap();
+    let at = |text: &str| {
+        let cell = format!("<td class=\"faint\">message</td><td>{text}");
+        table.find(&cell).unwrap_or_else(|| panic!("no {text}: {table}"))
+    };
+    let order = [
+        at("to keeper: tell waiting, 3 times until "),
+        at("from keeper: achieve enter"),
+        at("to left: &lt;script&gt;alert(1)&lt;/script&gt;"),
+        at("to keeper: untell waiting, "),
+        at("to keeper: tell through, "),
+    ];
+    assert!(order.is_sorted(), "{order:?}");
 }
 
 /// The examples' agents are as safe as is said of them: one corridor, whatever is lost or late.

@@ -367,7 +367,8 @@ impl Tee {
                     self.warn(at, Trouble::Misunderstood(problem));
                 }
             }
-            Passed::Input(..) | Passed::Sent { .. } => {}
+            // Who has said it shows it.
+            Passed::Heard(_) | Passed::Input(..) | Passed::Sent { .. } => {}
         }
     }
 

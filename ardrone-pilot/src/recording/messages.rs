@@ -1,5 +1,6 @@
 //! Messages of the flight log: JSON objects whose fields have the same names in the file and here.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -40,13 +41,21 @@ pub struct Tick {
     pub datagram: String,
 }
 
-/// What the vehicle's agent said to that of another one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct AgentMessage<'a> {
+/// What the vehicle's agent said to that of another one, or that one to it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AgentMessage<'a> {
     /// To whom: the name of its vehicle.
-    pub(super) to: &'a str,
+    pub to: Cow<'a, str>,
     /// Version of the messages, sender, and what was said.
-    pub(super) line: &'a str,
+    pub line: Cow<'a, str>,
+}
+
+impl AgentMessage<'_> {
+    /// Who said it, and what; `None` if it is no such line.
+    pub fn parts(&self) -> Option<(&str, &str)> {
+        let (_, rest) = self.line.split_once(' ')?;
+        rest.split_once(' ')
+    }
 }
 
 /// The mission from a moment on.

@@ -18,8 +18,8 @@ use std::fmt;
 use std::time::Duration;
 
 pub use messages::{
-    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Mission, Place, Tag,
-    Tags, Tick, Timing,
+    Agent, AgentMessage, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition,
+    Mission, Place, Tag, Tags, Tick, Timing,
 };
 pub use neighbour::Neighbour;
 pub use order::Order;
@@ -33,7 +33,7 @@ use autopilot::separation;
 use autopilot::vehicle::{
     Decision, Input, Operator, OperatorOrder, Telemetry, Transmit, VehicleName,
 };
-use mission_agent::Said;
+use mission_agent::{Line, Said};
 use time::UtcDateTime;
 
 use crate::drive::Passed;
@@ -117,6 +117,13 @@ pub enum Record {
         /// To whom, and what.
         said: Said,
     },
+    /// What was said to the vehicle's agent.
+    Heard {
+        /// Its time.
+        at: Duration,
+        /// What.
+        line: Line,
+    },
     /// Another message for people.
     Note {
         /// Its time.
@@ -184,6 +191,7 @@ impl Record {
                 @ (Telemetry::Event(_) | Telemetry::Mission { .. } | Telemetry::Ended(..)),
             ) => Self::Telemetry { at, telemetry: telemetry.clone() },
             Passed::Said(said) => Self::Said { at, said: *said },
+            Passed::Heard(line) => Self::Heard { at, line: *line },
             // The rest can be seen in the ticks.
             Passed::Misunderstood(_)
             | Passed::Unsaid(..)

@@ -14,7 +14,7 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
-use super::messages::{Bytes, DecodedNavdata, Mission, Tags, Tick};
+use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Tags, Tick};
 use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
@@ -59,6 +59,8 @@ pub enum Entry {
     Order(Box<Order>),
     /// What another vehicle told of itself.
     Neighbour(Neighbour),
+    /// What its agent said to that of another vehicle, or that one to it.
+    Message(AgentMessage<'static>),
     /// The mission, which has changed.
     Mission(Mission),
     /// An event as text.
@@ -347,6 +349,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
         _ if topic == topic::ORDERS.name => Entry::Order(Box::new(parse(topic, data)?)),
         _ if topic == topic::NEIGHBOURS.name => Entry::Neighbour(parse(topic, data)?),
+        _ if topic == topic::MESSAGES.name => Entry::Message(parse(topic, data)?),
         _ if topic == topic::MISSION.name => Entry::Mission(parse(topic, data)?),
         _ if topic == topic::TAGS.name => Entry::Tags(parse(topic, data)?),
         _ if topic == topic::LOG.name => {

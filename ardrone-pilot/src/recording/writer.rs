@@ -34,6 +34,8 @@ const DECODED_APART: Duration = Duration::from_millis(25);
 const TAGS_APART: Duration = Duration::from_secs(1);
 /// Compresses an eighth better than the default level.
 const COMPRESSION_LEVEL: u32 = 6;
+/// Name of the metadata that say whose something is.
+const VEHICLE: &str = "vehicle";
 /// Frame of the poses: right, forward and up from the take-off.
 const FRAME: &str = "take_off";
 /// Frame of the pictures. Which camera it is changes in flight.
@@ -68,7 +70,7 @@ impl<W: Write + Seek> LogWriter<W> {
             .profile("")
             .library("ardrone-pilot");
         let mut writer = options.create(writer)?;
-        let vehicle = BTreeMap::from([("vehicle".to_owned(), header.vehicle.to_string())]);
+        let vehicle = BTreeMap::from([(VEHICLE.to_owned(), header.vehicle.to_string())]);
         let mut channels = BTreeMap::new();
         for topic in topic::ALL {
             let schema = writer.add_schema(topic.schema, "jsonschema", topic.text.as_bytes())?;
@@ -80,7 +82,7 @@ impl<W: Write + Seek> LogWriter<W> {
             ("format", FORMAT.to_string()),
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("start_ns", start_ns.to_string()),
-            ("vehicle", header.vehicle.to_string()),
+            (VEHICLE, header.vehicle.to_string()),
             ("plan", header.plan_name.clone()),
             ("z_origin", header.z_origin.name().to_owned()),
             ("drone", header.drone.clone()),
@@ -142,8 +144,13 @@ impl<W: Write + Seek> LogWriter<W> {
             }
             Record::Telemetry { at, telemetry } => self.telemetry(*at, telemetry),
             Record::Said { at, said } => {
-                let said = AgentMessage { to: said.to, line: &said.line };
+                let said = AgentMessage { to: said.to.into(), line: said.line.as_str().into() };
                 self.message(topic::MESSAGES, *at, &said)
+            }
+            Record::Heard { at, line } => {
+                let own = self.vehicle.get(VEHICLE).map_or("", String::as_str);
+                let heard = AgentMessage { to: own.to_owned().into(), line: line.as_str().into() };
+                self.message(topic::MESSAGES, *at, &heard)
             }
             Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
             Record::Picture { at, picture } => self.picture(*at, picture),

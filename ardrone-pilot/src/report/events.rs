@@ -1,6 +1,8 @@
 //! Everything that happened in a flight, in the order of time: what was told, orders, decisions, what was believed, and what the
 //! drone said of itself.
 
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::time::Duration;
 
 use diagnostic::printable;
@@ -9,7 +11,7 @@ use serde::Serialize;
 use super::rows::Row;
 use super::spans::{Level, Strip};
 use super::words::{self, spoken};
-use crate::recording::{Entry, Log};
+use crate::recording::{AgentMessage, Entry, Log};
 
 /// Most events of a page.
 const MOST_EVENTS: usize = 3000;
@@ -17,6 +19,9 @@ const MOST_EVENTS: usize = 3000;
 const LONGEST_TEXT: usize = 400;
 /// Orders that repeat themselves are one event while they follow each other within this time.
 const REPEATED_WITHIN: Duration = Duration::from_secs(1);
+
+/// Messages that repeat themselves are one event likewise.
+const SAID_AGAIN_WITHIN: Duration = Duration::from_secs(3);
 
 /// What an event is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -28,6 +33,8 @@ pub(super) enum Kind {
     Warning,
     /// An operator's order.
     Order,
+    /// What a mission agent said to that of another vehicle, or heard from it.
+    Message,
     /// What the agent ordered the drone to do.
     Decision,
     /// A danger that the agent reported, or a veto of the safety monitor.
@@ -45,6 +52,7 @@ impl Kind {
             Self::Event => "event",
             Self::Warning => "warning",
             Self::Order => "order",
+            Self::Message => "message",
             Self::Decision => "agent",
             Self::Danger => "danger",
             Self::Belief => "navdata",
@@ -85,6 +93,7 @@ pub(super) fn events(
 ) -> Vec<Event> {
     let mut events = Vec::new();
     let mut repeated: Option<(Duration, String)> = None;
+    let mut messages = Messages::new(log.vehicle.as_str());
     for (at, entry) in log.entries.iter().filter(|(at, _)| (from..=until).contains(at)) {
         let at_s = at.as_secs_f64();
         let kind = |warns: bool| if warns { Kind::Warning } else { Kind::Event };
@@ -93,6 +102,7 @@ pub(super) fn events(
             Entry::Outcome { warns, text } => {
                 events.push(Event::new(at_s, kind(*warns), &format!("outcome: {text}")));
             }
+            Entry::Message(message) => messages.take_in(&mut events, *at, message),
             Entry::Order(order) => {
                 let text = order.text();
                 let again = repeated.take().is_some_and(|(last, of)| {
@@ -108,6 +118,7 @@ pub(super) fn events(
             _ => {}
         }
     }
+    messages.end(&mut events);
     decisions(&mut events, rows);
     for strip in beliefs {
         changes(&mut events, strip, Kind::Belief, Level::Wrong);
@@ -118,6 +129,62 @@ pub(super) fn events(
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
     events.truncate(MOST_EVENTS);
     events
+}
+
+/// Messages of mission agents. One that is said again and again, with other numbers perhaps, is one event.
+struct Messages<'a> {
+    /// The vehicle whose log it is.
+    vehicle: &'a str,
+    /// By whom it is said or heard, and what without its numbers.
+    last: BTreeMap<String, Repeated>,
+}
+
+/// A message that is said again and again.
+struct Repeated {
+    /// The index of its event.
+    event: usize,
+    last: Duration,
+    count: u32,
+}
+
+impl<'a> Messages<'a> {
+    fn new(vehicle: &'a str) -> Self {
+        Self { vehicle, last: BTreeMap::new() }
+    }
+
+    fn take_in(&mut self, events: &mut Vec<Event>, at: Duration, message: &AgentMessage<'_>) {
+        let text = match message.parts() {
+            Some((from, text)) if from == self.vehicle => format!("to {}: {text}", message.to),
+            Some((from, text)) => format!("from {from}: {text}"),
+            None => format!("to {}: {}", message.to, message.line),
+        };
+        let kind = text.split_once('(').map_or(text.as_str(), |(kind, _)| kind).to_owned();
+        if let Some(said) = self.last.get_mut(&kind)
+            && at.saturating_sub(said.last) < SAID_AGAIN_WITHIN
+        {
+            (said.last, said.count) = (at, said.count.saturating_add(1));
+            return;
+        }
+        self.end_of(events, &kind);
+        self.last.insert(kind, Repeated { event: events.len(), last: at, count: 1 });
+        events.push(Event::new(at.as_secs_f64(), Kind::Message, &text));
+    }
+
+    /// Says how often a message was said that is not said again.
+    fn end_of(&mut self, events: &mut [Event], kind: &str) {
+        let Some(Repeated { event, last, count }) = self.last.remove(kind) else { return };
+        if let (Some(event), 2..) = (events.get_mut(event), count) {
+            // Writing to a string cannot fail.
+            _ = write!(event.text, ", {count} times until {:.1} s", last.as_secs_f64());
+        }
+    }
+
+    fn end(mut self, events: &mut [Event]) {
+        let kinds: Vec<String> = self.last.keys().cloned().collect();
+        for kind in &kinds {
+            self.end_of(events, kind);
+        }
+    }
 }
 
 /// What the agent ordered, and what it or the safety monitor said, when it changed.
