@@ -138,8 +138,8 @@ pub(crate) struct Other {
     separation_m: f64,
     /// How near to its place this vehicle may come.
     pub(crate) keep_m: f64,
-    /// How far from its place it may be.
-    within_m: f64,
+    /// How far from its place it may be because it was where it cannot have got to.
+    doubtful_m: f64,
     /// The way that it claims, if this vehicle has to make it.
     claim: Option<Claim>,
     /// Unit vector towards it.
@@ -155,9 +155,10 @@ impl Other {
         Wall { distance_m, outward: self.outward }
     }
 
-    /// Whether it may be in any direction, as seen from a place: nobody knows then which way leads away from it.
+    /// Whether it may be in any direction, as seen from a place: it contradicts itself by more than the way between the two, so
+    /// that the place that it tells is no likelier than others. Of one that is only uncertain, or silent, it is.
     pub(crate) fn is_anywhere(&self, from_m: Vector2<f64>) -> bool {
-        (self.place_m - from_m).norm() <= self.within_m
+        (self.place_m - from_m).norm() < self.doubtful_m
     }
 
     /// Whether a straight way passes it too near. Who wants to where the other is has to wait.
@@ -265,8 +266,8 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     // Of both separations the larger one, so that both draw the same line.
     let separation_m = oneself.separation_m.max(neighbour.separation_m);
     let their_deviation_m = neighbour.deviation_m.hypot(*doubt_m);
-    let within_m = unsure_m([oneself.deviation_m, their_deviation_m]) + reach_m;
-    let keep_m = separation_m + within_m;
+    let keep_m = separation_m + unsure_m([oneself.deviation_m, their_deviation_m]) + reach_m;
+    let doubtful_m = DEVIATIONS * doubt_m;
     let between_m = way_m.norm() - keep_m;
     // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way
     // back.
@@ -275,7 +276,7 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let line_m = oneself.place_m.dot(&outward) + room_m;
     let makes_way = |claim: &Claim| claim.is_before(neighbour.system, oneself.rank, oneself.system);
     let claim = neighbour.claim.filter(makes_way);
-    Other { place_m, separation_m, keep_m, within_m, claim, outward, line_m }
+    Other { place_m, separation_m, keep_m, doubtful_m, claim, outward, line_m }
 }
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ impl Apart {
         self.claim = aside.or(Some(own).filter(|_| is_held_up && !waits));
         let goal_m = aside.map_or(if waits { here_m } else { target_m }, |aside| aside.to_m);
         let past_m = way_past(here_m, goal_m, others, border);
-        // Every way may lead to one that may be anywhere: it stays, and lands if that lasts.
+        // Every way may lead to one that contradicts itself: it stays, and lands if that lasts.
         let stays = others.iter().any(|other| other.is_anywhere(here_m));
         let wanted_m_s = if stays {
             Vector2::zeros()
@@ -150,4 +150,58 @@ fn leads_on(now: &Situation, others: &Others) -> bool {
         let room_m = wall.distance_m - Stopping::CAUTIOUS.way_m(speed_m_s);
         room_m < INSIDE_M && ahead.dot(&wall.outward) > 0.0 || room_m < 0.0
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::safety::tests::FINE;
+    use crate::separation::{Neighbour, Neighbours, Oneself, Presence};
+
+    /// Where a course leads within a second, of a vehicle that hovers and wants to fly forward. Each other one tells that it is at
+    /// a place, and told before that it was so far to the right of there.
+    fn led_m_s(told: &[([f64; 2], f64)]) -> Vector2<f64> {
+        let mut neighbours = Neighbours::default();
+        for (system, ([x_m, y_m], jump_m)) in (2..).zip(told) {
+            for off_m in [*jump_m, 0.0] {
+                // That it cannot have got there is said.
+                _ = neighbours.hear(Neighbour {
+                    system,
+                    at: FINE.now,
+                    place_m: Vector2::new(x_m + off_m, *y_m),
+                    velocity_m_s: Vector2::zeros(),
+                    deviation_m: 0.0,
+                    separation_m: 1.5,
+                    presence: Presence::Flies,
+                    claim: None,
+                });
+            }
+        }
+        let oneself = Oneself {
+            system: 1,
+            rank: None,
+            place_m: across(&FINE.pose),
+            velocity_m_s: Vector2::zeros(),
+            deviation_m: 0.0,
+            separation_m: 1.5,
+        };
+        let others = neighbours.others(FINE.now, &oneself);
+        let command = AgentCommand::GoTo(Pose { y_m: 3.0, ..FINE.pose });
+        let limits = MotionLimits { speed_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 };
+        let mut apart = Apart::default();
+        for _ in 0..10 {
+            _ = apart.keep(command, &FINE, &others, &Border::circle(9.0), &limits, 1);
+        }
+        apart.course().unwrap().velocity_m_s
+    }
+
+    #[test]
+    fn nobody_goes_anywhere_because_of_one_that_may_be_anywhere_but_back_from_others() {
+        assert!(led_m_s(&[]).y > 0.5, "it flies to its target");
+        assert!(led_m_s(&[([1.0, 0.0], 0.0)]).x < -0.1, "it goes back");
+        assert!(led_m_s(&[([4.0, 0.0], 1.5)]).x < -0.1, "it is somewhere to the right");
+        assert!(led_m_s(&[([4.0, 0.0], 6.0)]).norm() < 1e-9, "it may be to the left");
+        let both_m_s = led_m_s(&[([4.0, 0.0], 6.0), ([0.0, 1.0], 0.0)]);
+        assert!(both_m_s.x.abs() < 1e-9 && both_m_s.y < -0.1, "{both_m_s}");
+    }
 }
