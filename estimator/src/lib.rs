@@ -295,7 +295,12 @@ impl Estimator {
             low_since_s: None,
             airborne_since_s: None,
             airborne: false,
-            estimate: Estimate::default(),
+            // Until something is measured it is where it stands.
+            estimate: Estimate {
+                position_m: start.place_m.push(0.0),
+                yaw_deg: wrap_deg(start.heading_deg),
+                ..Estimate::default()
+            },
             world: Box::new(World::new(config.tags.as_ref(), &start)),
             config,
         }

@@ -31,6 +31,28 @@ fn presence(bench: &Bench) -> Option<Presence> {
     bench.vehicle.as_neighbour(bench.now).map(|told| told.presence)
 }
 
+/// A drone is heard before it measures anything.
+#[test]
+fn it_tells_its_start_from_the_first_moment_on() {
+    let mut config = VehicleConfig::default();
+    config.starts_at(Some(Start {
+        place_m: Vector2::new(4.0, -2.0),
+        heading_deg: 90.0,
+        ..Start::default()
+    }));
+    let mut bench = Bench::with(&config);
+    let mut told = 0;
+    for tick in 0..100 {
+        bench.has_demo = tick > 50;
+        bench.step();
+        let Some(neighbour) = bench.vehicle.as_neighbour(bench.now) else { continue };
+        let off_m = (neighbour.place_m - Vector2::new(4.0, -2.0)).norm();
+        assert!(off_m < 0.1, "{neighbour:?}");
+        told += 1;
+    }
+    assert!(told > 50, "{told}");
+}
+
 #[test]
 fn nobody_takes_off_beside_another_one() {
     for presence in [Presence::Stands, Presence::Starts, Presence::Flies] {
