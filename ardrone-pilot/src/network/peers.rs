@@ -562,11 +562,19 @@ mod tests {
             pair.right_text(3000 * MS),
         );
         let none = json!([]);
-        let believed = (0..200).find(|tick| {
-            let at = (4000 + 50 * tick) * MS;
+        // No place is free any more.
+        for tick in 0..3 {
+            let at = (3900 + tick) * MS;
             strangers_at(at, &of_right, &none, &mut pair.left, RIGHT);
             strangers_at(at + pair.ahead, &of_left, &none, &mut pair.right, LEFT);
+        }
+        let believed = (0..200).find(|tick| {
+            let at = (4000 + 50 * tick) * MS;
+            // Each time between what is heard and what is told.
+            strangers_at(at, &of_right, &none, &mut pair.left, RIGHT);
             let is_believed = pair.left_tells(at + 10 * MS, 5 * MS).is_ok();
+            let there = at + 17 * MS + pair.ahead;
+            strangers_at(there, &of_left, &none, &mut pair.right, LEFT);
             let text = pair.right_text(at + 20 * MS);
             pair.left_hears(at + 30 * MS, &text).is_ok() && is_believed
         });
