@@ -53,6 +53,12 @@ static WORDS: [Word; 15] = [
     word("help", "", Means::Help),
 ];
 
+/// Whether a line that begins with this word is an order, or a command of the plan language.
+pub(crate) fn is_order(first: &str) -> bool {
+    WORDS.iter().any(|word| word.name == first)
+        || LANGUAGE.iter().any(|declared| declared.name == first)
+}
+
 /// Where a line was typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Typist {

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, VehicleName};
 
 use crate::flight::{Controls, answer_of_all};
+use crate::typed;
 
 /// The vehicles, and which of them gets the orders; without a choice all do.
 #[derive(Debug, Clone)]
@@ -74,10 +75,11 @@ impl Crew {
         Some(Self { chosen: Some(place), ..self.clone() })
     }
 
-    /// Whom a typed line is for, and the rest of it: before an order may stand the name of a vehicle of several.
+    /// Whom a typed line is for, and the rest of it: before an order may stand the name of a vehicle of several. What is an order is
+    /// none: `land` lands all, also if a vehicle is called so.
     pub(super) fn named_first<'a>(&self, line: &'a str) -> (Self, &'a str) {
         let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
-        match self.named(first) {
+        match self.named(first).filter(|_| !typed::is_order(first)) {
             Some(named) if self.all.len() > 1 => (named, rest.trim_start()),
             _ => (self.clone(), line),
         }

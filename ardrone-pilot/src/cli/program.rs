@@ -366,6 +366,16 @@ mod tests {
     }
 
     #[test]
+    fn a_vehicle_that_is_called_like_an_order_takes_none_away() {
+        let named = |name: &str| Controls::of_nobody(name.parse().unwrap());
+        let crew = Crew::new(["land", "goto", "cut"].map(named).into());
+        for line in ["land", "cut", "goto 1 0 0 0"] {
+            let (whose, order) = crew.named_first(line);
+            assert_eq!((whose.to_string().as_str(), order), ("all vehicles", line));
+        }
+    }
+
+    #[test]
     fn several_take_only_what_each_can_do_where_it_is() {
         let (crew, left) = (fleet(), fleet().named("left").unwrap());
         for order in [OperatorOrder::Hold, OperatorOrder::Land, OperatorOrder::Cut] {
