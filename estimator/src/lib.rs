@@ -780,7 +780,11 @@ impl Estimator {
     }
 
     /// The drone has restarted: forgets the clock and the compass, keeps the position.
-    pub fn handle_restart(&mut self) {
+    pub fn handle_restart(&mut self, now: Duration) {
+        // What it has flown unseen since the last sample nobody will ever measure.
+        let unseen_m =
+            uncertainty::silence_m(self.silence_s(now), self.horizontal.measured_m_s().norm());
+        self.world.handle_restart(unseen_m * unseen_m);
         self.clock = SampleClock::default();
         self.heading.handle_restart();
         self.velocity_at_s = None;
@@ -792,7 +796,6 @@ impl Estimator {
         self.repetitions = Repetitions::default();
         self.response = Response::new();
         self.noise = NoiseOfAll::default();
-        self.world.handle_restart();
     }
 }
 

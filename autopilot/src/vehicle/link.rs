@@ -139,7 +139,7 @@ impl Vehicle {
             }
             session::Event::LinkLost => self.link_lost(now),
             session::Event::DroneRestarted => {
-                self.flight.estimator.handle_restart();
+                self.flight.estimator.handle_restart(now);
                 self.navdata = None;
                 self.gps = None;
                 self.camera = None;

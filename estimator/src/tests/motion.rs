@@ -340,7 +340,15 @@ fn after_a_restart_the_position_goes_on_and_the_clock_and_the_compass_begin_anew
     flight.fly(64);
     let before = *flight.estimator.estimate();
     assert!(before.position_m.y > 0.5);
-    flight.estimator.handle_restart();
+    let [sure_m, silent_m] = [0, 1000].map(|ms| {
+        let at = before.at + Duration::from_millis(ms);
+        flight.estimator.horizontal_deviation_m(at)
+    });
+    flight.estimator.handle_restart(before.at + Duration::from_secs(1));
+    // Nobody has seen what it flew in that second.
+    let unsure_m = flight.estimator.horizontal_deviation_m(before.at);
+    assert!(silent_m > sure_m + 0.2, "{sure_m} {silent_m}");
+    assert_near(unsure_m, silent_m, 1e-9);
     flight.packet += 160;
     flight.shown.yaw_deg = 150.0;
     flight.shown.velocity_forward_m_s = -1.0;

@@ -264,8 +264,9 @@ impl World {
         self.filter.doubt_heading(HEADING_STEP_DEG.to_radians());
     }
 
-    /// The drone has restarted: its earlier data are obsolete.
-    pub(crate) fn handle_restart(&mut self) {
+    /// The drone has restarted: its earlier data are obsolete. `unseen_m2` is the variance of the way that it has moved since.
+    pub(crate) fn handle_restart(&mut self, unseen_m2: f64) {
+        self.filter.doubt_place(unseen_m2);
         self.history = History::new();
         self.last_sights = [None; MAX_SIGHTS];
     }

@@ -265,7 +265,7 @@ fn a_step_of_the_compass_makes_a_far_tag_uncertain() {
     let sure = turn_by(&mut drone.tags.clone(), now_s).abs();
     let unsure = turn_by(&mut stepped, now_s).abs();
     assert!(unsure > 1.5 * sure, "{sure}, {unsure}");
-    drone.tags.handle_restart();
+    drone.tags.handle_restart(0.0);
     let before = drone.correction();
     let sight = drone.sight(0.7);
     drone.see(&[sight]);
