@@ -118,6 +118,34 @@ fn nobody_takes_off_beside_one_that_stands_there() {
     assert!(flown(&from_to([5.0, 5.0], &[still(0.0), still(1.7)], 1)).is_complete());
 }
 
+/// It lands beside one that stands there, as a plan may tell it to, and does not lift off there again.
+#[test]
+fn a_plan_takes_off_beside_nobody_who_stands_there_either() {
+    let mut fleet =
+        from_to([6.0, 6.0], &[([-2.5, 0.0], [0.0; 2], 0), ([2.5, 0.0], [1.0, 0.0], 0)], 1);
+    fleet.members[0].plan =
+        "takeoff\nsetStayTime 12\ngoto -2.5 0 0.5 0\nsetStayTime 0\ngoto 0.6 0 0.5 0\nland\n\
+         takeoff\ngoto -2.5 0 0.5 0\nland\n"
+            .to_owned();
+    let mut landed_at = None;
+    let mut highest_m = 0.0_f64;
+    let flight = fleet
+        .fly_watched(LIMIT, |now, places_m| {
+            let [first_m, second_m] = places_m else { return };
+            let is_beside = (first_m - second_m).xy().norm() < 1.0;
+            if is_beside && first_m.z < 0.01 && second_m.z < 0.01 {
+                landed_at.get_or_insert(now);
+            }
+            if landed_at.is_some() {
+                highest_m = highest_m.max(first_m.z);
+            }
+        })
+        .unwrap();
+    assert!(landed_at.is_some() && highest_m < 0.05, "{landed_at:?} {highest_m} {flight:?}");
+    assert!(vetoed(&flight, 0, Veto::KeepsApart) && !flight.members[0].is_complete(), "{flight:?}");
+    assert!(flight.members[1].is_complete(), "{flight:?}");
+}
+
 /// The first shuttles past the second one, which takes off for another flight at any moment of that. Each hears the other a second
 /// late.
 #[test]

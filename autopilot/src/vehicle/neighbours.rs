@@ -93,7 +93,13 @@ impl Vehicle {
         state: &Prediction,
         situation: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
-        let others = self.neighbours.others(now, &self.oneself(now, state));
+        let oneself = self.oneself(now, state);
+        // Also where a plan takes off again: who is near may have come since the first time.
+        let is_lifting = command == AgentCommand::TakeOff && self.on_ground();
+        if is_lifting && self.neighbours.too_near(now, oneself).next().is_some() {
+            return (AgentCommand::Standby, Some(Veto::KeepsApart));
+        }
+        let others = self.neighbours.others(now, &oneself);
         let limits = self.course_limits();
         self.flight.safety.keep_apart(command, situation, &others, &limits, self.config.system)
     }

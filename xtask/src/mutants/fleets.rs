@@ -43,8 +43,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         mutant(
             "who has had a wrong sensor keeps away from nobody",
             NEIGHBOURS,
-            "let others = self.neighbours.others(now, &self.oneself(now, state));",
-            "self.neighbours.1 |= self.flight.estimator.trust() != estimator::Trust::Sound;\n        let mut others = self.neighbours.others(now, &self.oneself(now, state));\n        if self.neighbours.1 { others.clear(); }",
+            "let others = self.neighbours.others(now, &oneself);",
+            "self.neighbours.1 |= self.flight.estimator.trust() != estimator::Trust::Sound;\n        let mut others = self.neighbours.others(now, &oneself);\n        if self.neighbours.1 { others.clear(); }",
         ),
         &[edit(
             SEPARATION,
