@@ -73,8 +73,8 @@ pub(super) fn longest(configuration: &Configuration, ctype: &CType) -> usize {
     }
     match ctype.kind {
         TypeKind::Bool => "false".len(),
-        // All digits that C writes for any number, too.
-        TypeKind::Float32 => "-1.17549435e-38".len(),
+        // All digits that C writes for any number, too. Rust writes a number below 1e16 without an exponent.
+        TypeKind::Float32 => "-9999999000000000.0".len(),
         TypeKind::Float64 => "-2.2250738585072014e-308".len(),
         _ => 0,
     }
@@ -99,5 +99,15 @@ mod tests {
             assert_eq!(longest(&configuration, &CType::named(name)), text.len(), "{name}");
         }
         assert_eq!(longest(&configuration, &CType::peer()), "wingman".len());
+        let [narrow, wide] =
+            ["float", "double"].map(|name| longest(&configuration, &CType::named(name)));
+        for exponent in -45..=38 {
+            let number: f32 = format!("-9.999999e{exponent}").parse().unwrap();
+            assert!(format!("{number:?}").len() <= narrow, "{number:?}");
+        }
+        for exponent in -324..=308 {
+            let number: f64 = format!("-1.2345678901234567e{exponent}").parse().unwrap();
+            assert!(format!("{number:?}").len() <= wide, "{number:?}");
+        }
     }
 }
