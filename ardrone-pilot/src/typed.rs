@@ -55,8 +55,7 @@ static WORDS: [Word; 15] = [
 
 /// Whether a line that begins with this word is an order, or a command of the plan language.
 pub(crate) fn is_order(first: &str) -> bool {
-    WORDS.iter().any(|word| word.name == first)
-        || LANGUAGE.iter().any(|declared| declared.name == first)
+    words().any(|word| word == first)
 }
 
 /// Where a line was typed.
@@ -180,6 +179,11 @@ pub(crate) fn remote_words() -> impl Iterator<Item = &'static str> {
     orders.chain(commands())
 }
 
+/// All words that a line can begin with.
+fn words() -> impl Iterator<Item = &'static str> {
+    WORDS.iter().map(|word| word.name).chain(commands())
+}
+
 /// Commands of the plan language that are not also orders.
 fn commands() -> impl Iterator<Item = &'static str> {
     let is_order = |name: &str| WORDS.iter().any(|word| word.name == name);
@@ -197,8 +201,7 @@ pub(crate) fn completions(line: &str) -> Vec<String> {
     if let Some(path) = line.strip_prefix("load ") {
         return files(path).into_iter().map(|path| format!("load {path}")).collect();
     }
-    let words = WORDS.iter().map(|word| word.name).chain(commands());
-    words.filter(|word| word.starts_with(line)).map(str::to_owned).collect()
+    words().filter(|word| word.starts_with(line)).map(str::to_owned).collect()
 }
 
 fn files(start: &str) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! What an agent senses in a step, and what it orders and says: the functions that `agents/boundary.conf` declares.
 
 use std::fmt::{self, Write as _};
+use std::time::Duration;
 
 use arrayvec::{ArrayString, ArrayVec};
 use kinematics::Pose;
@@ -13,6 +14,14 @@ const MAX_SAID: usize = 64;
 
 /// A message between agents as text: `VERSION SENDER MESSAGE`.
 pub type Line = ArrayString<MAX_LINE>;
+
+/// What has not been said for so long is no longer said again and again.
+pub const SAID_AGAIN_WITHIN: Duration = Duration::from_secs(3);
+
+/// A message without its values: by it those are told that are said again and again, with other numbers perhaps.
+pub fn kind(message: &str) -> &str {
+    message.split_once('(').map_or(message, |(kind, _)| kind)
+}
 
 /// What an agent says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,10 +3,8 @@
 use std::time::Duration;
 
 use arrayvec::ArrayVec;
-use mission_agent::{Line, Said};
+use mission_agent::{Line, SAID_AGAIN_WITHIN, Said, kind};
 
-/// What has not been said for so long is worth showing again.
-const FORGOTTEN: Duration = Duration::from_secs(3);
 /// Kinds of messages that are told apart; of further ones each is shown.
 const KINDS: usize = 32;
 
@@ -19,17 +17,12 @@ impl SaidLast {
     pub(super) fn is_said_again(&mut self, at: Duration, said: Said) -> bool {
         let kind = Said { line: Line::from(kind(&said.line)).unwrap_or_default(), ..said };
         if let Some((_, last)) = self.0.iter_mut().find(|(before, _)| *before == kind) {
-            return at.saturating_sub(std::mem::replace(last, at)) < FORGOTTEN;
+            return at.saturating_sub(std::mem::replace(last, at)) < SAID_AGAIN_WITHIN;
         }
         // Without room for it, it is shown.
         _ = self.0.try_push((kind, at));
         false
     }
-}
-
-/// A line without its values.
-fn kind(line: &str) -> &str {
-    line.split_once('(').map_or(line, |(kind, _)| kind)
 }
 
 #[cfg(test)]

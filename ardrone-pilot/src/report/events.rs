@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use diagnostic::printable;
+use mission_agent::SAID_AGAIN_WITHIN;
 use serde::Serialize;
 
 use super::rows::Row;
@@ -19,9 +20,6 @@ const MOST_EVENTS: usize = 3000;
 const LONGEST_TEXT: usize = 400;
 /// Orders that repeat themselves are one event while they follow each other within this time.
 const REPEATED_WITHIN: Duration = Duration::from_secs(1);
-
-/// Messages that repeat themselves are one event likewise.
-const SAID_AGAIN_WITHIN: Duration = Duration::from_secs(3);
 
 /// What an event is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -158,7 +156,7 @@ impl<'a> Messages<'a> {
             Some((from, text)) => format!("from {from}: {text}"),
             None => format!("to {}: {}", message.to, message.line),
         };
-        let kind = text.split_once('(').map_or(text.as_str(), |(kind, _)| kind).to_owned();
+        let kind = mission_agent::kind(&text).to_owned();
         if let Some(said) = self.last.get_mut(&kind)
             && at.saturating_sub(said.last) < SAID_AGAIN_WITHIN
         {

@@ -95,12 +95,14 @@ impl Vehicle {
     ) -> (AgentCommand, Option<Veto>) {
         let oneself = self.oneself(now, state);
         // Also where a plan takes off again: who is near may have come since the first time.
-        let is_lifting = command == AgentCommand::TakeOff && self.on_ground();
-        if is_lifting && self.neighbours.too_near(now, oneself).next().is_some() {
-            return (AgentCommand::Standby, Some(Veto::KeepsApart));
-        }
+        let must_stay = command == AgentCommand::TakeOff
+            && self.on_ground()
+            && self.neighbours.too_near(now, oneself).next().is_some();
+        let command = if must_stay { AgentCommand::Standby } else { command };
         let others = self.neighbours.others(now, &oneself);
         let limits = self.course_limits();
-        self.flight.safety.keep_apart(command, situation, &others, &limits, self.config.system)
+        let (command, veto) =
+            self.flight.safety.keep_apart(command, situation, &others, &limits, self.config.system);
+        (command, veto.or(must_stay.then_some(Veto::KeepsApart)))
     }
 }
