@@ -24,7 +24,7 @@ fn is_inside(place_m: Option<Vector2<f64>>) -> bool {
 fn two_machines_pass_a_corridor_one_after_the_other() {
     let text = std::fs::read_to_string(fleets().join("corridor.toml")).unwrap();
     let programs: [Program<'_>; 2] = [(0, &["keeper", "left"]), (1, &["right"])];
-    let Some(mut room) = Room::new("tcp", &text, programs) else { return };
+    let Some(mut room) = Room::new(&text, programs) else { return };
     // In truth: how often each was inside, as the loop looked.
     let mut inside = [0; 2];
     room.watch(|room| {

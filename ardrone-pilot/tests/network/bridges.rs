@@ -336,3 +336,16 @@ fn what_is_no_configuration_is_said_with_its_file() {
     }
     assert!(NetworkConfig::read(&folder.path().join("none.json5")).is_err());
 }
+
+/// Zenoh tells only once who listens to what: a datagram that is lost would leave two vehicles deaf to each other.
+#[test]
+fn datagrams_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let runtime = Runtime::start(SecondSignal::IsPassedOn).unwrap();
+    let at = format!("udp/{}", own_address());
+    for text in [zenoh(&at, None), zenoh(&format!("tcp/{}", own_address()), Some(&at))] {
+        let path = written(&folder, "net.json5", &text);
+        let error = Program::open(&runtime, 0, &path).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("not supported for udp"), "{error}");
+    }
+}

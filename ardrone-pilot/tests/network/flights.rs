@@ -53,14 +53,14 @@ type Ended = (Option<i32>, Vec<Value>);
 /// The fleet of two, with a program and a drone on each machine, and a bad network between them.
 const TWO: [Program<'static>; 2] = [(0, &["left"]), (1, &["right"])];
 
-fn two(protocol: &str) -> Option<Room<2>> {
+fn two() -> Option<Room<2>> {
     let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
-    Room::new(protocol, &text, TWO)
+    Room::new(&text, TWO)
 }
 
 impl<const N: usize> Room<N> {
     /// Flies a fleet with these programs; `text` is that of its file. All programs connect to the first one.
-    pub(crate) fn new(protocol: &str, text: &str, programs: [Program<'_>; N]) -> Option<Self> {
+    pub(crate) fn new(text: &str, programs: [Program<'_>; N]) -> Option<Self> {
         let mut lab = Lab::new()?;
         lab.wire(50, 0.1);
         let folder = tempfile::tempdir().unwrap();
@@ -98,7 +98,7 @@ impl<const N: usize> Room<N> {
         std::fs::write(&path, file.to_string()).unwrap();
         let address = |number: usize| {
             let (end, _) = programs[number];
-            format!("{protocol}/{}:{}", ADDRESSES[end], 7447 + number)
+            format!("tcp/{}:{}", ADDRESSES[end], 7447 + number)
         };
         let pilots = std::array::from_fn(|number| {
             let (end, names) = programs[number];
@@ -175,22 +175,19 @@ impl<const N: usize> Room<N> {
 
 #[test]
 fn two_change_places_over_a_bad_network() {
-    for protocol in ["tcp", "udp"] {
-        let Some(room) = two(protocol) else { return };
-        let ([(left, left_said), (right, right_said)], nearest_m) = room.until_the_end();
-        eprintln!("{protocol}: nearest {nearest_m:.2} m");
-        assert_eq!((left, right), (Some(0), Some(0)), "{:?}", left_said.last());
-        assert!((NEAREST_M..5.5).contains(&nearest_m), "{nearest_m}");
-        for (said, other) in [(&left_said, "right"), (&right_said, "left")] {
-            let heard = said.iter().find(|object| object["type"] == "network").unwrap();
-            assert_eq!((&heard["vehicle"], &heard["heard"]), (&json!(other), &json!(true)));
-            let network = &said.last().unwrap()["network"];
-            let [told, heard] = ["told", "heard"].map(|key| network[key].as_u64().unwrap());
-            assert!(told > 200 && heard > 100, "{network}");
-            for why in ["malformed", "absurd", "clock", "flown_here", "other_fleet", "two_programs"]
-            {
-                assert_eq!(refused(said, why), 0, "{network}");
-            }
+    let Some(room) = two() else { return };
+    let ([(left, left_said), (right, right_said)], nearest_m) = room.until_the_end();
+    eprintln!("nearest {nearest_m:.2} m");
+    assert_eq!((left, right), (Some(0), Some(0)), "{:?}", left_said.last());
+    assert!((NEAREST_M..5.5).contains(&nearest_m), "{nearest_m}");
+    for (said, other) in [(&left_said, "right"), (&right_said, "left")] {
+        let heard = said.iter().find(|object| object["type"] == "network").unwrap();
+        assert_eq!((&heard["vehicle"], &heard["heard"]), (&json!(other), &json!(true)));
+        let network = &said.last().unwrap()["network"];
+        let [told, heard] = ["told", "heard"].map(|key| network[key].as_u64().unwrap());
+        assert!(told > 200 && heard > 100, "{network}");
+        for why in ["malformed", "absurd", "clock", "flown_here", "other_fleet", "two_programs"] {
+            assert_eq!(refused(said, why), 0, "{network}");
         }
     }
 }
@@ -198,7 +195,7 @@ fn two_change_places_over_a_bad_network() {
 /// Both land, or go on when they hear each other again; what was held back by then is not taken for news.
 #[test]
 fn a_partition_in_flight_brings_nobody_together() {
-    let Some(mut room) = two("tcp") else { return };
+    let Some(mut room) = two() else { return };
     room.until_they_meet(4.0);
     room.lab.wire(50, 1.0);
     room.watch_for(Duration::from_secs(5));
@@ -246,7 +243,7 @@ fn cut(time: Duration) -> Option<[Ended; 2]> {
     let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
     let without_plans: Vec<&str> =
         text.lines().filter(|line| !line.starts_with("plan =")).collect();
-    let mut room = Room::new("tcp", &without_plans.join("\n"), TWO)?;
+    let mut room = Room::new(&without_plans.join("\n"), TWO)?;
     // What is lost before lets TCP wait for longer.
     room.lab.wire(50, 0.0);
     let came = |said: &[Value]| {
@@ -277,7 +274,7 @@ fn cut(time: Duration) -> Option<[Ended; 2]> {
 /// Its drone lands by itself, and nobody hears of it any more.
 #[test]
 fn a_program_that_is_killed_in_flight_brings_nobody_together() {
-    let Some(mut room) = two("tcp") else { return };
+    let Some(mut room) = two() else { return };
     room.until_they_meet(4.0);
     room.pilots[1].kill();
     let ([(left, said), (right, _)], nearest_m) = room.until_the_end();
@@ -294,7 +291,7 @@ fn a_program_that_is_killed_in_flight_brings_nobody_together() {
 fn a_program_that_is_killed_in_flight_keeps_nobody_from_its_plan_who_is_far_away() {
     let text = std::fs::read_to_string(fleets().join("two.toml")).unwrap();
     let programs: [Program<'_>; 3] = [(0, &["far"]), (0, &["left"]), (1, &["right"])];
-    let Some(mut room) = Room::new("tcp", &(text + FAR), programs) else { return };
+    let Some(mut room) = Room::new(&(text + FAR), programs) else { return };
     room.until_they_meet(4.0);
     assert!(room.places_m()[2].is_some(), "it flies");
     room.pilots[0].kill();

@@ -74,10 +74,10 @@ fn one_end() {
     }
 }
 
-fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
+fn measure(what: &str, lab: Option<&Lab>, count: u32) {
     let addresses = if lab.is_some() { ADDRESSES } else { ["127.0.0.1"; 2] };
-    let at = format!("{protocol}/{}:7448", addresses[0]);
-    let configs = [zenoh(&at, None), zenoh(&format!("{protocol}/{}:0", addresses[1]), Some(&at))];
+    let at = format!("tcp/{}:7448", addresses[0]);
+    let configs = [zenoh(&at, None), zenoh(&format!("tcp/{}:0", addresses[1]), Some(&at))];
     let this = std::env::current_exe().unwrap();
     let start = |end: usize, task: &str| {
         let mut command = lab.map_or_else(|| Command::new(&this), |lab| lab.command(end, &this));
@@ -91,17 +91,15 @@ fn measure(what: &str, lab: Option<&Lab>, protocol: &str, count: u32) {
     let result = lines.filter_map(|line| Some(line.split_once("ways: ")?.1.to_owned())).last();
     sends.wait().unwrap();
     hears.wait().unwrap();
-    println!("{what}, {protocol}, {count} sent: {}", result.unwrap());
+    println!("{what}, {count} sent: {}", result.unwrap());
 }
 
 #[test]
 #[ignore = "it measures for some minutes"]
 fn how_long_a_state_is_under_way() {
-    for protocol in ["tcp", "udp"] {
-        measure("loopback", None, protocol, COUNT);
-        measure("loopback, as fast as it goes", None, protocol, FAST);
-        let Some(mut lab) = Lab::new() else { return };
-        lab.wire(50, 0.1);
-        measure("50 ms and 10 % lost each way", Some(&lab), protocol, COUNT);
-    }
+    measure("loopback", None, COUNT);
+    measure("loopback, as fast as it goes", None, FAST);
+    let Some(mut lab) = Lab::new() else { return };
+    lab.wire(50, 0.1);
+    measure("50 ms and 10 % lost each way", Some(&lab), COUNT);
 }
