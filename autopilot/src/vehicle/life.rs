@@ -78,8 +78,8 @@ pub(super) struct Departure {
 /// A flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Flying {
-    /// The drone has been in the air.
-    pub(super) has_lifted: bool,
+    /// The drone has been in the air since it was landed last.
+    pub(super) has_risen: bool,
     /// The step being flown.
     pub(super) due: Option<Active>,
     /// Whether the mission is flown, or what an operator does instead.

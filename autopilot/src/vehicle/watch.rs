@@ -208,10 +208,11 @@ impl Vehicle {
 
     /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.
     fn has_come_down(&mut self, now: Duration) -> bool {
-        let on_ground = self.on_ground();
+        let (on_ground, lands) = (self.on_ground(), self.lands());
         let Life::Flying(flying) = &mut self.life else { return false };
-        flying.has_lifted |= !on_ground;
-        let down = flying.has_lifted && on_ground && !self.lands();
+        let down = flying.has_risen && on_ground && !lands;
+        // Where it was landed it stands until it rises again, which a plan may order.
+        flying.has_risen = !on_ground || down;
         self.flight.down.lasts(now, down, FAULT_TIME)
     }
 
