@@ -419,6 +419,15 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
         assert_eq!(status, Some(20), "{text}");
         assert!(error.contains(said), "{text}: {error}");
     }
+    std::fs::write(
+        folder.path().join("one.toml"),
+        "[vehicle]\nname = \"b\"\n[room]\nstart = [1, 0, 0]\n",
+    )
+    .unwrap();
+    std::fs::write(&path, "[fleet]\nconfig = \"one.toml\"\n").unwrap();
+    let (status, error) = check(&path);
+    let said = "vehicle.name is one vehicle's: the fleet has it for each; room.start is one";
+    assert!(status == Some(20) && error.contains(said), "{error}");
     let two = |name: &str, x_m: f64| {
         format!(
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\n[[vehicle]]\nname = \"{name}\"\nstart = [{x_m}, 0, 0]\n"

@@ -166,10 +166,15 @@ fn shared_settings(
     fence: Option<&Table>,
     config: Option<&Path>,
 ) -> Result<Settings, FleetError> {
-    let mut settings = match config {
-        Some(path) => Settings::parse(&path.display().to_string(), &read("the settings", path)?)?,
-        None => Settings::default(),
-    };
+    let mut settings = Settings::default();
+    if let Some(path) = config {
+        let name = path.display().to_string();
+        settings = Settings::parse(&name, &read("the settings", path)?)?;
+        let reasons = settings.reasons_against_sharing();
+        if !reasons.is_empty() {
+            return Err(SettingsError::Values { path: name, reasons }.into());
+        }
+    }
     settings.share(fence, written.fleet.separation_m)?;
     Ok(settings)
 }

@@ -179,6 +179,19 @@ impl Settings {
         Err(SettingsError::Values { path: "the fleet".to_owned(), reasons })
     }
 
+    /// Why these cannot be the settings of all vehicles of a fleet: what each has for itself.
+    pub(crate) fn reasons_against_sharing(&self) -> Vec<String> {
+        let usual = Self::default();
+        let own = [
+            ("vehicle.name", self.vehicle.name != usual.vehicle.name),
+            ("vehicle.system", self.vehicle.system != usual.vehicle.system),
+            ("room.start", self.room.start != usual.room.start),
+            ("room.peers", self.room.peers != usual.room.peers),
+        ];
+        let given = own.into_iter().filter(|(_, is_given)| *is_given);
+        given.map(|(key, _)| format!("{key} is one vehicle's: the fleet has it for each")).collect()
+    }
+
     /// Settings of one vehicle of a fleet.
     pub(crate) fn give(
         &mut self,
