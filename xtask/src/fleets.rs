@@ -57,6 +57,11 @@ impl Kind {
             .chain(CROSSING.map(Self::Crossing))
     }
 
+    /// Whether it is of interest how long it takes: only that of those whose ways are in each other's way.
+    fn is_timed(self) -> bool {
+        matches!(self, Self::Crossing(_))
+    }
+
     fn fleet(self, seed: u64) -> Fleet {
         match self {
             Self::Random => Fleet::random(seed),
@@ -136,17 +141,33 @@ fn fly(
         .flat_map(|kind| seeds.clone().map(move |seed| (kind, seed)))
         .filter(|(kind, seed)| is_flown(*kind, *seed))
         .collect();
-    let flown = parallel::map(&jobs, |(kind, seed)| kind.fleet(seed).fly(LIMIT))?;
+    let flown = parallel::map(&jobs, |(kind, seed)| {
+        let fleet = kind.fleet(seed);
+        Ok::<_, CannotFly>((fleet.fly(LIMIT)?, kind.is_timed().then(|| alone(&fleet)).transpose()?))
+    })?;
     let mut lines = Vec::new();
-    for ((kind, seed), flight) in jobs.into_iter().zip(&flown) {
+    for ((kind, seed), (flight, alone)) in jobs.into_iter().zip(&flown) {
         let bad = kind.bad(flight).map(|what| {
             let had: Vec<&str> = flight.kinds.iter().copied().collect();
             format!("{kind}:{seed}: {what}; {}", had.join(", "))
         });
         table.add(kind, seed, flight, bad.as_deref());
+        if let Some(alone) = alone {
+            table.add_alone(kind, flight, *alone);
+        }
         lines.extend(bad);
     }
     Ok(lines)
+}
+
+/// When the last one would be down if each had the room for itself: no way of keeping apart is faster.
+fn alone(fleet: &Fleet) -> Result<Duration, CannotFly> {
+    let mut last = Duration::ZERO;
+    for member in &fleet.members {
+        let alone = Fleet { members: vec![member.clone()], ..Fleet::default() };
+        last = last.max(alone.fly(LIMIT)?.duration());
+    }
+    Ok(last)
 }
 
 /// What happened to the random fleet of a seed.

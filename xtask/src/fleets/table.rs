@@ -29,6 +29,8 @@ struct Row {
     vehicles: usize,
     completed: usize,
     slowest: Duration,
+    /// Of those that meet in one point: how often they were measured, all their time together, and as much alone.
+    beside_alone: (u32, Duration, Duration),
 }
 
 fn is_too_near(near: Option<Nearest>) -> bool {
@@ -60,6 +62,14 @@ impl Table {
             }
         }
         self.bad.extend(bad.map(|bad| (seed, bad.to_owned())));
+    }
+
+    /// How long the same vehicles take if nobody is in anybody's way.
+    pub(super) fn add_alone(&mut self, kind: Kind, flight: &FleetFlight, alone: Duration) {
+        let (count, together, apart) = &mut self.rows.entry(kind).or_default().beside_alone;
+        *count += 1;
+        *together += flight.duration();
+        *apart += alone;
     }
 
     pub(super) fn is_good(&self) -> bool {
@@ -98,6 +108,15 @@ impl fmt::Display for Table {
                 format!("{} of {}", row.completed, row.vehicles),
                 row.slowest.as_secs_f64(),
             )?;
+        }
+        for (kind, row) in &self.rows {
+            let (count, together, alone) = row.beside_alone;
+            if count > 0 {
+                let [together_s, alone_s] =
+                    [together, alone].map(|all| (all / count).as_secs_f64());
+                let times = together_s / alone_s;
+                writeln!(f, "{kind}: {together_s:.1} s, {times:.2} times as long as alone")?;
+            }
         }
         writeln!(
             f,
