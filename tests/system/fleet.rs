@@ -143,7 +143,7 @@ fn a_plan_takes_off_beside_nobody_who_stands_there_either() {
         .unwrap();
     assert!(landed_at.is_some() && highest_m < 0.05, "{landed_at:?} {highest_m} {flight:?}");
     assert!(vetoed(&flight, 0, Veto::KeepsApart), "{flight:?}");
-    let reason = "step 7 exceeded its time limit".to_owned();
+    let reason = "another vehicle was in the way for too long".to_owned();
     assert_eq!(flight.members[0].outcome, Some(Outcome::Failsafe { reason }), "{flight:?}");
     assert!(flight.members[1].is_complete(), "{flight:?}");
 }

@@ -79,6 +79,9 @@ impl fmt::Display for LandingReason {
                 f.write_str("the wind carries the drone over the fence")
             }
             Self::Safety(Veto::Landing) => f.write_str("the drone lands by itself"),
+            Self::Safety(Veto::KeepsApart) => {
+                f.write_str("another vehicle was in the way for too long")
+            }
             Self::Safety(Veto::Crowded) => f.write_str("another vehicle was too near, or silent"),
             Self::Safety(_) => f.write_str("no navdata for too long"),
         }

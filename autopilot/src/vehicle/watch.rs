@@ -272,6 +272,9 @@ impl Vehicle {
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
             Danger::NoProgress if self.life.manual().sends() => LandingReason::ManualTargetTimedOut,
+            Danger::NoProgress if self.flight.veto == Some(Veto::KeepsApart) => {
+                LandingReason::Safety(Veto::KeepsApart)
+            }
             Danger::NoProgress => LandingReason::StepTimedOut {
                 step: self.life.due().map_or(0, |active| active.due.step),
             },
