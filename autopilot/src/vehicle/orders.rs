@@ -173,6 +173,7 @@ impl Vehicle {
     /// Drops the current step because the mission was replaced. A landing goes on and ends the flight.
     fn mission_replaced(&mut self, now: Duration) {
         self.mission_changed();
+        self.flight.report_mut().steps_done = 0;
         if self.lands() {
             self.give_up(now, Why::Replaced);
         } else if let Life::Flying(flying) = &mut self.life {
