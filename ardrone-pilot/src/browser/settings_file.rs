@@ -16,6 +16,8 @@ pub struct SettingsFile {
     pub path: PathBuf,
     /// Whether the program was started with it.
     pub is_used: bool,
+    /// Whether a fleet names it, for all of its vehicles: then nothing in it may be one vehicle's.
+    pub is_shared: bool,
     /// The settings that are in effect, of the command line too.
     pub in_effect: Settings,
 }
@@ -70,6 +72,7 @@ impl SettingsFile {
         Ok(json!({
             "file": self.name(),
             "is_used": self.is_used,
+            "is_shared": self.is_shared,
             "settings": written.iter().map(value).collect::<Vec<_>>(),
         }))
     }
@@ -82,10 +85,35 @@ impl SettingsFile {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
         let changed = with_changes(&self.name(), &self.text()?, &changes)?;
+        if self.is_shared {
+            Settings::parse(&self.name(), &changed)?.for_all(&self.name())?;
+        }
         let system = |error| ChangeError::File(self.name(), error);
         let mut draft = self.path.clone().into_os_string();
         draft.push(".new");
         fs::write(&draft, changed).map_err(system)?;
         fs::rename(&draft, &self.path).map_err(system)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_one_vehicles_is_not_written_into_the_settings_of_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("all.toml");
+        let file = |is_shared| {
+            let in_effect = Settings::default();
+            SettingsFile { path: path.clone(), is_used: true, is_shared, in_effect }
+        };
+        let own = r#"{"vehicle":{"name":"x"},"room":{"start":[1,1,0]}}"#;
+        let error = file(true).change(own).unwrap_err().to_string();
+        assert!(error.contains("vehicle.name is one") && error.contains("room.start is one"));
+        assert!(!path.exists(), "nothing is written");
+        file(true).change(r#"{"fence":{"radius_m":2}}"#).unwrap();
+        file(false).change(own).unwrap();
+        assert!(fs::read_to_string(&path).unwrap().contains("name = \"x\""));
     }
 }

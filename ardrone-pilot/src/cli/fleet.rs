@@ -324,8 +324,10 @@ fn page_config(arguments: &FlyFleet, fleet: &Fleet, shown: &[Shown]) -> PageConf
         flights: arguments.log.clone(),
         recordings: recordings.map(|recording| recording.path().to_owned()).collect(),
         settings: SettingsFile {
-            path: fleet.config.clone().unwrap_or_else(|| PathBuf::from(SETTINGS)),
+            // Where `config` of the fleet would look for it.
+            path: fleet.config.clone().unwrap_or_else(|| arguments.fleet.with_file_name(SETTINGS)),
             is_used: fleet.config.is_some(),
+            is_shared: true,
             in_effect: fleet.settings.clone(),
         },
         fleet: names.collect(),

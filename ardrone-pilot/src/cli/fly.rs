@@ -411,6 +411,7 @@ fn page_config(arguments: &Fly, settings: &Settings, recording: Option<&Recordin
         settings: SettingsFile {
             path: arguments.config.clone().unwrap_or_else(|| PathBuf::from(SETTINGS)),
             is_used: arguments.config.is_some(),
+            is_shared: false,
             in_effect: settings.clone(),
         },
         fleet: Vec::new(),

@@ -170,10 +170,7 @@ fn shared_settings(
     if let Some(path) = config {
         let name = path.display().to_string();
         settings = Settings::parse(&name, &read("the settings", path)?)?;
-        let reasons = settings.reasons_against_sharing();
-        if !reasons.is_empty() {
-            return Err(SettingsError::Values { path: name, reasons }.into());
-        }
+        settings.for_all(&name)?;
     }
     settings.share(fence, written.fleet.separation_m)?;
     Ok(settings)

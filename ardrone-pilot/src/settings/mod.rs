@@ -179,8 +179,11 @@ impl Settings {
         Err(SettingsError::Values { path: "the fleet".to_owned(), reasons })
     }
 
-    /// Why these cannot be the settings of all vehicles of a fleet: what each has for itself.
-    pub(crate) fn reasons_against_sharing(&self) -> Vec<String> {
+    /// Whether these, of the file at `path`, can be the settings of all vehicles of a fleet.
+    ///
+    /// # Errors
+    /// [`SettingsError::Values`] with what each vehicle has for itself.
+    pub(crate) fn for_all(&self, path: &str) -> Result<(), SettingsError> {
         let usual = Self::default();
         let own = [
             ("vehicle.name", self.vehicle.name != usual.vehicle.name),
@@ -189,7 +192,13 @@ impl Settings {
             ("room.peers", self.room.peers != usual.room.peers),
         ];
         let given = own.into_iter().filter(|(_, is_given)| *is_given);
-        given.map(|(key, _)| format!("{key} is one vehicle's: the fleet has it for each")).collect()
+        let reasons: Vec<String> = given
+            .map(|(key, _)| format!("{key} is one vehicle's: the fleet has it for each"))
+            .collect();
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(SettingsError::Values { path: path.to_owned(), reasons })
     }
 
     /// Settings of one vehicle of a fleet.

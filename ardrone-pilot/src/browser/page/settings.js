@@ -20,7 +20,9 @@ const settings = (() => {
     }
     $("settingsfile").textContent = found.file;
     const waiting = found.settings.filter(({ value, in_effect }) => JSON.stringify(value) !== JSON.stringify(in_effect)).length;
-    const start = found.is_used ? "" : ` Start with --config ${found.file} to use it.`;
+    const name = found.file.split("/").pop();
+    const how = found.is_shared ? `Write config = "${name}" into [fleet] of the fleet's file` : `Start with --config ${found.file}`;
+    const start = found.is_used ? "" : ` ${how} to use it.`;
     note(`${said} ${waiting ? `${waiting} of them are not in effect: start ardrone-pilot again.` : "All of them are in effect."}${start}`.trim());
     rows = found.settings.map(row);
     const sections = new Set();
