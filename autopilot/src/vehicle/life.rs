@@ -78,7 +78,9 @@ pub(super) struct Departure {
 /// A flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Flying {
-    /// The drone has been in the air since it was landed last.
+    /// The drone has been in the air.
+    pub(super) has_flown: bool,
+    /// It has been since it was landed last.
     pub(super) has_risen: bool,
     /// The step being flown.
     pub(super) due: Option<Active>,

@@ -115,7 +115,7 @@ impl Vehicle {
             Life::Preparing { departure, .. } => departure.is_some(),
             Life::Flying(flying) => {
                 // In the tick after the landing the flight has yet to end.
-                let has_flown = self.flight.report().took_off_at.is_some() && flying.due.is_none();
+                let has_flown = flying.has_flown && flying.due.is_none();
                 self.on_ground() && !self.lands() && !has_flown
             }
             Life::Standby { .. } | Life::Landing { .. } => false,

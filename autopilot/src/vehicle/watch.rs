@@ -210,6 +210,7 @@ impl Vehicle {
     fn has_come_down(&mut self, now: Duration) -> bool {
         let (on_ground, lands) = (self.on_ground(), self.lands());
         let Life::Flying(flying) = &mut self.life else { return false };
+        flying.has_flown |= !on_ground;
         let down = flying.has_risen && on_ground && !lands;
         // Where it was landed it stands until it rises again, which a plan may order.
         flying.has_risen = !on_ground || down;
