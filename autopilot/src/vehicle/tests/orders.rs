@@ -29,6 +29,15 @@ fn steer() -> OperatorOrder {
 
 const HERE: OperatorOrder = OperatorOrder::GoTo(Place::at(0.0, 0.0));
 
+/// Whoever counts them would take the new plan for flown.
+#[test]
+fn of_a_plan_that_replaces_another_in_flight_no_step_is_done() {
+    let mut bench = Bench::in_the_air(STAY);
+    bench.accepted(OperatorOrder::Load(Plan::parse("next", "takeoff\nland").unwrap()));
+    let report = bench.vehicle.report();
+    assert_eq!((report.steps, report.steps_done), (2, 0));
+}
+
 #[test]
 fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
     let orders = [
