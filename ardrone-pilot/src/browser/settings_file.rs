@@ -108,9 +108,11 @@ mod tests {
             let in_effect = Settings::default();
             SettingsFile { path: path.clone(), is_used: true, is_shared, in_effect }
         };
-        let own = r#"{"vehicle":{"name":"x"},"room":{"start":[1,1,0]}}"#;
+        let own = r#"{"vehicle":{"name":"x","system":9},"room":{"start":[1,1,0],"peers":[2]}}"#;
         let error = file(true).change(own).unwrap_err().to_string();
-        assert!(error.contains("vehicle.name is one") && error.contains("room.start is one"));
+        for key in ["vehicle.name", "vehicle.system", "room.start", "room.peers"] {
+            assert!(error.contains(&format!("{key} is one vehicle's")), "{error}");
+        }
         assert!(!path.exists(), "nothing is written");
         file(true).change(r#"{"fence":{"radius_m":2}}"#).unwrap();
         file(false).change(own).unwrap();
