@@ -9,8 +9,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use system_tests::airframes::Airframes;
 
 use crate::{
-    campaign, compare, cross_checks, fleets, fly, healthy, mavlink, mutants, rules, sensors, soak,
-    streams, tags, target, verify,
+    campaign, case, compare, cross_checks, fleets, fly, healthy, mavlink, mutants, rules, sensors,
+    soak, streams, tags, target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -201,6 +201,9 @@ enum Command {
     Target,
     /// Generate the code of the MAVLink dialect from its XML; it is checked in
     Mavlink(mavlink::Arguments),
+    /// Check the safety case (`docs/safety-case.md`), and write its drawing; with outputs of tests and proofs, fail if a piece of
+    /// its evidence was not seen there
+    Case(case::Arguments),
 }
 
 /// Runs the command and returns the exit status.
@@ -268,5 +271,6 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         Command::Verify { counted, .. } => verify::run(counted.as_deref())?,
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
+        Command::Case(arguments) => case::run(&arguments)?,
     })
 }

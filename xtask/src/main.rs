@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod campaign;
+mod case;
 mod cases;
 mod command_line;
 mod compare;
