@@ -1,31 +1,23 @@
-//! The safety case, `docs/safety-case.md`: checks it, draws it, and compares it with what has run.
+//! The safety case, `docs/safety-case.md`: checks and draws it, and compares it with what has run.
 
 mod drawing;
 mod page;
-mod ran;
 mod sources;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use self::page::{Kind, Page};
-use self::sources::Sources;
+use self::page::{Kind, Mistake, Nodes};
 
 /// What to do.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Only look, and write no drawing; fails if the drawing is not what the page says
-    #[arg(long)]
-    check: bool,
-    /// Output of `cargo test --workspace`: each test of the case must have run, and been ok
+    /// Write nothing, and fail if a test of the case did not run or was not ok in this output of `cargo test --workspace`
     #[arg(long, value_name = "LOG")]
     ran: Option<PathBuf>,
-    /// Output of `cargo xtask verify`: each proof of the case must have been made
-    #[arg(long, value_name = "LOG")]
-    proved: Option<PathBuf>,
 }
 
-/// Why nothing was checked.
+/// A file could not be read or written.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {source}")]
 pub(crate) struct CaseError {
@@ -36,97 +28,76 @@ pub(crate) struct CaseError {
 const PAGE: &str = "docs/safety-case.md";
 const DRAWING: &str = "docs/safety-case.svg";
 
-fn workspace() -> PathBuf {
+fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn read(path: PathBuf) -> Result<String, CaseError> {
-    std::fs::read_to_string(&path).map_err(|source| CaseError { path, source })
+fn at<T>(path: &Path, result: std::io::Result<T>) -> Result<T, CaseError> {
+    result.map_err(|source| CaseError { path: path.to_owned(), source })
 }
 
-/// Checks the case, and writes its drawing if there is nothing wrong with it. Returns what to print, and whether it is good.
+fn read(path: &Path) -> Result<String, CaseError> {
+    at(path, std::fs::read_to_string(path))
+}
+
+/// Checks the case, and draws it. Returns what to print, and whether nothing is wrong.
 pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), CaseError> {
-    let page = Page::parse(&read(workspace().join(PAGE))?);
-    let mut mistakes = mistakes(&page)?;
-    let tests_log = arguments.ran.clone().map(read).transpose()?;
-    let proofs_log = arguments.proved.clone().map(read).transpose()?;
-    mistakes.extend(not_seen(&page, tests_log.as_deref(), proofs_log.as_deref())?);
-    let drawing = drawing::draw(&page);
-    let path = workspace().join(DRAWING);
-    if arguments.check || tests_log.is_some() || proofs_log.is_some() {
-        if read(path)? != drawing {
-            mistakes.push((0, format!("{DRAWING} shows something else: run `cargo xtask case`")));
-        }
-    } else if mistakes.is_empty() {
-        std::fs::write(&path, &drawing).map_err(|source| CaseError { path, source })?;
+    let log = arguments.ran.as_deref().map(read).transpose()?;
+    let (nodes, mut mistakes) = checked(&read(&root().join(PAGE))?, log.as_deref())?;
+    if mistakes.is_empty() && log.is_none() {
+        let drawing = root().join(DRAWING);
+        at(&drawing, std::fs::write(&drawing, drawing::draw(&nodes)))?;
     }
     mistakes.sort();
     let mut text = String::new();
     for (line, mistake) in &mistakes {
         _ = writeln!(text, "{PAGE}:{line}: {mistake}");
     }
-    let count = |is_counted: fn(&Kind) -> bool| {
-        page.nodes.values().filter(|node| is_counted(&node.kind)).count()
-    };
+    let leaves = nodes.values().filter(|node| node.below.is_empty());
+    let assumed = leaves.clone().filter(|node| node.kind == Kind::Assumption).count();
+    let shown = leaves.filter(|node| node.kind != Kind::Context).count() - assumed;
     _ = writeln!(
         text,
-        "{} goals, {} tests, {} proofs, {} runs, {} assumptions; {} mistakes",
-        count(|kind| *kind == Kind::Goal),
-        count(|kind| matches!(kind, Kind::Test(_))),
-        count(|kind| matches!(kind, Kind::Proof(_))),
-        count(|kind| matches!(kind, Kind::Run(_))),
-        count(|kind| *kind == Kind::Assumption),
-        mistakes.len(),
+        "{shown} pieces of evidence, {assumed} assumptions, {} mistakes",
+        mistakes.len()
     );
     Ok((text, mistakes.is_empty()))
 }
 
-/// What is wrong with the page by itself and by the repository.
-fn mistakes(page: &Page) -> Result<Vec<(usize, String)>, CaseError> {
-    let root = workspace();
-    let sources = sources_of(&root)?;
-    let proved = ran::proved_on_the_page(&read(root.join("docs/verification.md"))?);
-    let ci = read(root.join(".ci/run"))?;
-    let mut mistakes = page.mistakes.clone();
-    for node in page.nodes.values() {
+/// Reads the page, and tells what is wrong with it, by the repository and by the output of the tests, too.
+fn checked(page: &str, log: Option<&str>) -> Result<(Nodes, Vec<Mistake>), CaseError> {
+    let packages = at(&root(), sources::packages(&root()))?;
+    let results = log.map(|log| sources::results(log, &packages));
+    let verification = read(&root().join("docs/verification.md"))?;
+    // Behind that come mutants, and properties of another agent with the same names.
+    let proofs = verification.split("## The proof can fail").next().unwrap_or_default();
+    let ci = read(&root().join(".ci/run"))?;
+    let (nodes, mut mistakes) = page::parse(page);
+    for node in nodes.values() {
         let wrong = match &node.kind {
-            Kind::Test(name) => sources.missing(name),
+            Kind::Test(name) => sources::missing(&packages, name).or_else(|| {
+                let ended = results.as_ref()?.get(name).map_or("nothing", |ended| {
+                    ended.iter().find(|result| *result != "ok").map_or("ok", String::as_str)
+                });
+                (ended != "ok").then(|| format!("of `{name}` the output says {ended}"))
+            }),
             Kind::Proof(name) => {
-                (!proved.contains(name)).then(|| format!("`{name}` is not proved"))
+                let rows = [format!("| {name} |"), format!("| `{name}` |")];
+                let is_row = |line: &str| rows.iter().any(|row| line.starts_with(row));
+                let is_good =
+                    |line: &str| line.ends_with("| proved |") || line.contains("| shown |");
+                let is_proved = proofs.lines().any(|line| is_row(line) && is_good(line));
+                (!is_proved).then(|| format!("`{name}` is not proved"))
             }
-            Kind::Run(command) => (!ci.contains(&command.replace("cargo xtask", "/xtask\"")))
-                .then(|| format!("`.ci/run` does not run `{command}`")),
+            Kind::Run(command) => {
+                let is_run = ci.contains(&command.replace("cargo xtask", "/xtask\""));
+                (!is_run).then(|| format!("`.ci/run` does not run `{command}`"))
+            }
             _ => None,
         };
         mistakes.extend(wrong.map(|wrong| (node.line, wrong)));
     }
-    Ok(mistakes)
-}
-
-/// Which evidence is not in the outputs that are given.
-fn not_seen(
-    page: &Page,
-    tests: Option<&str>,
-    proofs: Option<&str>,
-) -> Result<Vec<(usize, String)>, CaseError> {
-    let sources = sources_of(&workspace())?;
-    let ran = tests.map(|log| ran::tests(log, &sources));
-    let proved = proofs.map(ran::proved);
-    let unseen = page.nodes.values().filter_map(|node| {
-        let wrong = match &node.kind {
-            Kind::Test(name) => ran::not_ran(ran.as_ref()?, name)?,
-            Kind::Proof(name) if !proved.as_ref()?.contains(name) => {
-                format!("`{name}` was not proved")
-            }
-            _ => return None,
-        };
-        Some((node.line, wrong))
-    });
-    Ok(unseen.collect())
-}
-
-fn sources_of(root: &Path) -> Result<Sources, CaseError> {
-    Sources::of(root).map_err(|source| CaseError { path: root.to_owned(), source })
+    Ok((nodes, mistakes))
 }
 
 #[cfg(test)]

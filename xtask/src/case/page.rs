@@ -2,194 +2,128 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a node is, by the letter of its id.
+/// What a node is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// What is claimed.
     Goal,
-    /// How a claim is divided.
     Strategy,
-    /// What was tested.
+    Context,
+    Assumption,
+    /// A test, by its binary and its path.
     Test(String),
-    /// What was proved of the agent and its C.
+    /// A row of `docs/verification.md`.
     Proof(String),
     /// A command of `.ci/run`.
     Run(String),
-    /// What is taken to be so.
-    Assumption,
-    /// What the words mean, or where the claim holds.
-    Context,
 }
 
 /// An item of a list.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Node {
     pub(crate) kind: Kind,
-    /// Without the id and the evidence's name.
+    /// Without its id, and the name of the evidence.
     pub(crate) text: String,
     /// Line of the page, from 1.
     pub(crate) line: usize,
-    /// What stands below it, and what it refers to, in their order.
+    /// What stands below it, and what it refers to.
     pub(crate) below: Vec<String>,
 }
 
-/// All nodes by their ids, and what is wrong with the page.
-#[derive(Debug, Default)]
-pub(crate) struct Page {
-    pub(crate) nodes: BTreeMap<String, Node>,
-    /// Line and message.
-    pub(crate) mistakes: Vec<(usize, String)>,
-}
+/// What is wrong, and in which line of the page.
+pub(crate) type Mistake = (usize, String);
 
-/// The node that is not below another one.
+/// The nodes by their ids.
+pub(crate) type Nodes = BTreeMap<String, Node>;
+
+/// The goal of which all others are parts.
 pub(crate) const TOP: &str = "G1";
 
-impl Page {
-    pub(crate) fn parse(text: &str) -> Self {
-        let mut page = Self::default();
-        // Ids of the items around the current one, with their indents.
-        let mut around: Vec<(usize, String)> = Vec::new();
-        for (line, indent, item) in items(text) {
-            around.retain(|(outer, _)| *outer < indent);
-            let parent = around.last().map(|(_, id)| id.clone());
-            let below = if let Some(ids) = item.strip_prefix("see ") {
-                ids.split(',').map(|id| id.trim().to_owned()).collect()
-            } else {
-                match node(&item) {
-                    Ok((id, kind, text)) => {
-                        let node = Node { kind, text, line, below: Vec::new() };
-                        if page.nodes.insert(id.clone(), node).is_some() {
-                            page.mistakes.push((line, format!("{id} is there twice")));
-                        }
-                        around.push((indent, id.clone()));
-                        vec![id]
-                    }
-                    Err(mistake) => {
-                        page.mistakes.push((line, mistake));
-                        continue;
-                    }
-                }
-            };
-            if let Some(parent) = parent.and_then(|id| page.nodes.get_mut(&id)) {
-                parent.below.extend(below);
+/// Reads the page, and tells what is wrong with it by itself.
+pub(crate) fn parse(text: &str) -> (Nodes, Vec<Mistake>) {
+    let (mut nodes, mut mistakes) = (Nodes::new(), Vec::new());
+    // The items around the current one, with their indents.
+    let mut around: Vec<(usize, String)> = Vec::new();
+    for (line, indent, item) in items(text) {
+        around.retain(|(outer, _)| *outer < indent);
+        let below: Vec<String> = if let Some(ids) = item.strip_prefix("see ") {
+            ids.split(", ").map(str::to_owned).collect()
+        } else if let Some((id, kind, text)) = node(&item) {
+            let node = Node { kind, text: text.to_owned(), line, below: Vec::new() };
+            if nodes.insert(id.to_owned(), node).is_some() {
+                mistakes.push((line, format!("{id} is there twice")));
             }
+            vec![id.to_owned()]
+        } else {
+            mistakes.push((line, format!("neither a node nor a reference: {item}")));
+            continue;
+        };
+        if let Some(above) = around.last().and_then(|(_, id)| nodes.get_mut(id)) {
+            above.below.extend(below.iter().cloned());
         }
-        page.judge();
-        page
+        around.extend(below.into_iter().map(|id| (indent, id)).take(1));
     }
-
-    /// Looks for what is not supported, not used, or not there.
-    fn judge(&mut self) {
-        let mut mistakes = Vec::new();
-        for (id, node) in &self.nodes {
-            let missing = node.below.iter().filter(|below| !self.nodes.contains_key(*below));
-            mistakes.extend(missing.map(|below| (node.line, format!("there is no {below}"))));
-            let is_support = |below: &&Node| below.kind != Kind::Context;
-            let mut supports = node.below.iter().filter_map(|id| self.nodes.get(id));
-            let is_supported = supports.any(|below| is_support(&below));
-            let wrong = match node.kind {
-                Kind::Goal | Kind::Strategy => !is_supported,
-                _ => !node.below.is_empty(),
-            };
-            if wrong && node.below.is_empty() {
-                mistakes.push((node.line, format!("nothing supports {id}")));
-            } else if wrong {
-                mistakes.push((node.line, format!("{id} has what does not belong below it")));
-            }
-            let lacks_experiment = node.kind == Kind::Assumption
-                && !(node.text.contains("*Experiment:*") && node.text.contains(".md"));
-            if lacks_experiment {
-                mistakes.push((node.line, format!("{id} lacks its experiment, or the link to it")));
-            }
-            if node.text.is_empty() {
-                mistakes.push((node.line, format!("{id} says nothing")));
-            }
+    let used: BTreeSet<&String> = nodes.values().flat_map(|node| &node.below).collect();
+    for (id, node) in &nodes {
+        let below = |below: &String| nodes.get(below).map(|found| (found.line, &found.kind));
+        let is_support = |id: &String| below(id).is_some_and(|(_, kind)| *kind != Kind::Context);
+        // What is referred to stands further down, so that nothing supports itself.
+        let is_astray = |id: &&String| {
+            below(id).is_none_or(|(line, kind)| line <= node.line && *kind != Kind::Assumption)
+        };
+        let astray = node.below.iter().filter(is_astray);
+        mistakes
+            .extend(astray.map(|below| (node.line, format!("there is no {below} behind {id}"))));
+        let is_divided = matches!(node.kind, Kind::Goal | Kind::Strategy);
+        let is_complete = node.kind != Kind::Assumption
+            || node.text.contains("*Experiment:* ") && node.text.contains(".md");
+        for (wrong, says) in [
+            (!used.contains(id) && id != TOP, "supports nothing"),
+            (is_divided && !node.below.iter().any(is_support), "is not supported"),
+            (!is_divided && !node.below.is_empty(), "cannot have anything below it"),
+            (!is_complete, "lacks its experiment, or a link to it"),
+        ] {
+            mistakes.extend(wrong.then(|| (node.line, format!("{id} {says}"))));
         }
-        let mut used = BTreeSet::new();
-        if let Err(round) = self.reach(TOP, &mut Vec::new(), &mut used) {
-            mistakes.push((0, round));
-        }
-        let unused = self.nodes.iter().filter(|(id, _)| !used.contains(*id));
-        mistakes.extend(unused.map(|(id, node)| (node.line, format!("{id} supports nothing"))));
-        self.mistakes.extend(mistakes);
     }
-
-    /// Collects what `id` rests on.
-    fn reach(
-        &self,
-        id: &str,
-        path: &mut Vec<String>,
-        used: &mut BTreeSet<String>,
-    ) -> Result<(), String> {
-        if path.iter().any(|above| above == id) {
-            return Err(format!("{id} supports itself"));
-        }
-        used.insert(id.to_owned());
-        path.push(id.to_owned());
-        for below in self.nodes.get(id).map_or(&[][..], |node| &node.below) {
-            self.reach(below, path, used)?;
-        }
-        path.pop();
-        Ok(())
-    }
+    (nodes, mistakes)
 }
 
-/// Items of lists: line, indent, and text with what is broken onto further lines.
+/// Items of lists: line, indent, and text with the lines that go on.
 fn items(text: &str) -> Vec<(usize, usize, String)> {
     let mut items: Vec<(usize, usize, String)> = Vec::new();
-    let mut is_open = false;
     for (line, text) in (1..).zip(text.lines()) {
         let bare = text.trim_start();
         let indent = text.len() - bare.len();
         if let Some(item) = bare.strip_prefix("- ") {
             items.push((line, indent, item.to_owned()));
-            is_open = true;
-        } else if let Some((_, _, item)) = items.last_mut()
-            && is_open
-            && indent > 0
-            && !bare.is_empty()
-        {
-            item.push(' ');
-            item.push_str(bare);
-        } else {
-            is_open = false;
+        } else if let Some((_, _, item)) = items.last_mut().filter(|_| indent > 0) {
+            *item = format!("{item} {bare}");
         }
     }
     items
 }
 
-/// Id, kind and text of an item.
-fn node(item: &str) -> Result<(String, Kind, String), String> {
-    let (id, text) = item
-        .strip_prefix("**")
-        .and_then(|rest| rest.split_once("**"))
-        .ok_or_else(|| format!("neither a node nor a reference: {item}"))?;
-    let digits = |rest: &str| rest.chars().all(|c| c.is_ascii_digit() || c == '.');
-    if id.len() < 2 || !digits(id.get(1..).unwrap_or("?")) {
-        return Err(format!("no id: {id}"));
-    }
-    let text = text.trim();
-    let (kind, text) = match id.chars().next() {
-        Some('G') => (Kind::Goal, text),
-        Some('S') => (Kind::Strategy, text),
-        Some('A') => (Kind::Assumption, text),
-        Some('C') => (Kind::Context, text),
-        Some('E') => evidence(text).ok_or_else(|| format!("{id} is no evidence"))?,
-        _ => return Err(format!("no kind of node begins like {id}")),
-    };
-    Ok((id.to_owned(), kind, text.to_owned()))
-}
-
-/// ``test `NAME`: what it shows``.
-fn evidence(text: &str) -> Option<(Kind, &str)> {
-    let (kind, rest) = text.split_once(" `")?;
-    let (name, text) = rest.split_once("`: ")?;
-    let name = name.to_owned();
-    let kind = match kind {
-        "test" => Kind::Test(name),
-        "proof" => Kind::Proof(name),
-        "run" => Kind::Run(name),
+/// Id, kind and text of ``**ID** text`` or ``**ID** test `NAME`: text``.
+fn node(item: &str) -> Option<(&str, Kind, &str)> {
+    let (id, text) = item.strip_prefix("**")?.split_once("** ")?;
+    let kind = match id.split_at_checked(1)? {
+        (_, number) if !number.starts_with(|c: char| c.is_ascii_digit()) => return None,
+        ("G", _) => Kind::Goal,
+        ("S", _) => Kind::Strategy,
+        ("C", _) => Kind::Context,
+        ("A", _) => Kind::Assumption,
+        ("E", _) => {
+            let (kind, rest) = text.split_once(" `")?;
+            let (name, text) = rest.split_once("`: ")?;
+            let kind = match kind {
+                "test" => Kind::Test,
+                "proof" => Kind::Proof,
+                "run" => Kind::Run,
+                _ => return None,
+            };
+            return Some((id, kind(name.to_owned()), text));
+        }
         _ => return None,
     };
-    Some((kind, text.trim()))
+    Some((id, kind, text))
 }

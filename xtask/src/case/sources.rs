@@ -1,112 +1,114 @@
-//! Tests in the sources of the workspace.
+//! Tests in the sources of the workspace, and those that have run.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Where a test is looked for.
-#[derive(Debug)]
-pub(crate) struct Sources {
-    /// Packages by name, with their folders.
-    packages: Vec<(String, PathBuf)>,
+/// Folders of the packages.
+pub(crate) type Packages = BTreeMap<String, PathBuf>;
+
+/// The packages of a workspace.
+pub(crate) fn packages(workspace: &Path) -> std::io::Result<Packages> {
+    let mut packages = Packages::new();
+    for entry in std::fs::read_dir(workspace)? {
+        let folder = entry?.path();
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        let name =
+            manifest.lines().find_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"'));
+        packages.extend(name.map(|name| (name.to_owned(), folder.clone())));
+    }
+    Ok(packages)
 }
 
-impl Sources {
-    /// The packages below a folder.
-    pub(crate) fn of(workspace: &Path) -> std::io::Result<Self> {
-        let mut packages = Vec::new();
-        for entry in std::fs::read_dir(workspace)? {
-            let folder = entry?.path();
-            let Ok(manifest) = std::fs::read_to_string(folder.join("Cargo.toml")) else { continue };
-            let name = manifest.lines().find_map(|line| line.strip_prefix("name = \""));
-            if let Some(name) = name {
-                packages.push((name.trim_end_matches('"').to_owned(), folder));
-            }
-        }
-        packages.sort();
-        Ok(Self { packages })
-    }
-
-    /// The package that has this file; if several have, the one that is preferred.
-    pub(crate) fn package_with(&self, file: &str, preferred: Option<&str>) -> Option<&str> {
-        let mut having = self.packages.iter().filter(|(_, folder)| folder.join(file).is_file());
-        let first = having.clone().next();
-        let wanted = having.find(|(name, _)| Some(name.as_str()) == preferred);
-        wanted.or(first).map(|(name, _)| name.as_str())
-    }
-
-    /// Why there is no test of this name (`PACKAGE path` or `PACKAGE/TARGET path`) that runs.
-    pub(crate) fn missing(&self, test: &str) -> Option<String> {
-        let found = test.split_once(' ').and_then(|(binary, path)| {
-            let (package, target) = binary.split_once('/').unwrap_or((binary, ""));
-            let (_, folder) = self.packages.iter().find(|(name, _)| name == package)?;
-            let roots = if target.is_empty() {
-                ["src/lib.rs", "src/main.rs"].map(str::to_owned).to_vec()
-            } else {
-                ["tests/TARGET.rs", "tests/TARGET/main.rs", "TARGET/main.rs"]
-                    .map(|root| root.replace("TARGET", target))
-                    .to_vec()
-            };
-            let root = roots.iter().map(|root| folder.join(root)).find(|root| root.is_file())?;
-            let text = std::fs::read_to_string(&root).ok()?;
-            let path: Vec<&str> = path.split("::").collect();
-            attributes(&text, 0, root.parent()?, &path)
-        });
-        let Some(found) = found else { return Some(format!("there is no `{test}`")) };
-        let has = |begin: &str| found.iter().any(|line| line.starts_with(begin));
-        if !has("#[test]") && !has("#[tokio::test") {
-            return Some(format!("`{test}` is no test"));
-        }
-        let is_ignored = has("#[ignore") || has("#[cfg_attr");
-        is_ignored.then(|| format!("`{test}` is ignored"))
-    }
+/// Why there is no test `PACKAGE path` or `PACKAGE/TARGET path` that runs.
+pub(crate) fn missing(packages: &Packages, test: &str) -> Option<String> {
+    let attributes = test.split_once(' ').and_then(|(binary, path)| {
+        let (package, target) = binary.split_once('/').unwrap_or((binary, "src"));
+        let files = [("", "/lib.rs"), ("", "/main.rs"), ("tests/", ".rs"), ("tests/", "/main.rs")];
+        let folder = packages.get(package)?;
+        let root = files.map(|(before, after)| folder.join(format!("{before}{target}{after}")));
+        let root = root.iter().find(|root| root.is_file())?;
+        let text = std::fs::read_to_string(root).ok()?;
+        attributes(&text, 0, root.parent()?, &path.split("::").collect::<Vec<_>>())
+    });
+    let has = |begin: &str| attributes.iter().flatten().any(|line| line.starts_with(begin));
+    let what = match &attributes {
+        None => "is not in the sources",
+        Some(_) if !has("#[test]") && !has("#[tokio::test") => "is no test",
+        Some(_) if has("#[ignore") || has("#[cfg_attr") => "is ignored",
+        Some(_) => return None,
+    };
+    Some(format!("`{test}` {what}"))
 }
 
-/// Attributes of the function at the end of a path, in a module whose items are indented so, and whose files are in a folder.
+/// Attributes of the function at the end of a path, in a module with this text, indent of its items, and folder of its files.
 fn attributes(text: &str, indent: usize, folder: &Path, path: &[&str]) -> Option<Vec<String>> {
     let lines: Vec<&str> = text.lines().collect();
-    let indent_of = |line: &str| line.len() - line.trim_start().len();
     let (name, rest) = path.split_first()?;
+    let at_indent = |line: &&str, indent: usize| {
+        line.trim_start().len() + indent == line.len() && !line.is_empty()
+    };
     if rest.is_empty() {
-        let is_it = |line: &str| {
-            let line = line.trim_start();
-            let line = line.strip_prefix("async ").unwrap_or(line);
-            line.strip_prefix("fn ").is_some_and(|rest| rest.starts_with(&format!("{name}(")))
-        };
-        // Proptest's functions are in a macro.
-        let is_in_proptest = |at: usize| {
-            let mut before = lines.iter().take(at).rev().filter(|line| !line.is_empty());
-            before
-                .find(|line| indent_of(line) == indent)
-                .is_some_and(|line| line.trim_start().starts_with("proptest!"))
-        };
-        let at = (0..lines.len()).find(|&at| {
-            lines.get(at).is_some_and(|line| {
-                is_it(line)
-                    && (indent_of(line) == indent
-                        || indent_of(line) == indent + 4 && is_in_proptest(at))
-            })
+        let (at, _) = (0..).zip(&lines).find(|(at, line)| {
+            let begin = line.trim_start().trim_start_matches("async ");
+            let is_it = begin.strip_prefix("fn ").and_then(|rest| rest.strip_prefix(*name));
+            // Proptest's functions are in a macro.
+            let mut before = lines.iter().take(*at).rev().filter(|line| at_indent(line, indent));
+            let is_in_proptest = |line: &&str| line.trim_start().starts_with("proptest!");
+            is_it.is_some_and(|rest| rest.starts_with('('))
+                && (at_indent(line, indent)
+                    || at_indent(line, indent + 4) && before.next().is_some_and(is_in_proptest))
         })?;
-        // An attribute that is broken onto several lines ends with its bracket; nothing else stands above without a blank.
+        // Nothing else than comments stands between attributes and function.
         let above = lines.iter().take(at).rev().map(|line| line.trim());
         let above = above.take_while(|line| !line.is_empty() && !line.ends_with(['{', '}', ';']));
-        let no_comments = above.filter(|line| !line.starts_with("//"));
-        return Some(no_comments.map(str::to_owned).collect());
+        return Some(above.map(str::to_owned).collect());
     }
-    let declared = lines.iter().position(|line| {
-        indent_of(line) == indent
-            && line.trim_start().trim_start_matches("pub(crate) ").strip_prefix("mod ").is_some_and(
-                |rest| rest == format!("{name};").as_str() || rest == format!("{name} {{").as_str(),
-            )
+    let at = lines.iter().position(|line| {
+        let begin = line.trim_start().trim_start_matches("pub(crate) ").trim_start_matches("pub ");
+        let named = begin.strip_prefix("mod ").and_then(|rest| rest.strip_prefix(*name));
+        at_indent(line, indent) && named.is_some_and(|rest| rest == ";" || rest == " {")
     })?;
-    let folder_within = folder.join(name);
-    if lines.get(declared)?.ends_with('{') {
-        let inside = lines.iter().skip(declared + 1);
-        let inside: Vec<&str> = inside
-            .take_while(|line| !(indent_of(line) == indent && line.trim() == "}"))
-            .copied()
-            .collect();
-        return attributes(&inside.join("\n"), indent + 4, &folder_within, rest);
+    let within = folder.join(name);
+    if lines.get(at)?.ends_with('{') {
+        let inside = lines.iter().skip(at + 1).take_while(|line| !at_indent(line, indent));
+        let inside: Vec<&str> = inside.copied().collect();
+        return attributes(&inside.join("\n"), indent + 4, &within, rest);
     }
-    let files = [folder.join(format!("{name}.rs")), folder_within.join("mod.rs")];
+    let files = [within.with_extension("rs"), within.join("mod.rs")];
     let text = files.iter().find_map(|file| std::fs::read_to_string(file).ok())?;
-    attributes(&text, 0, &folder_within, rest)
+    attributes(&text, 0, &within, rest)
+}
+
+/// What became of each test in the output of `cargo test`: a path is unique in its binary only.
+pub(crate) fn results(log: &str, packages: &Packages) -> BTreeMap<String, Vec<String>> {
+    let mut results = BTreeMap::<String, Vec<String>>::new();
+    let (mut package, mut binary) = (String::new(), None);
+    for line in log.lines() {
+        if let Some(running) = line.trim_start().strip_prefix("Running ") {
+            // `unittests src/lib.rs (target/debug/deps/NAME-HASH)`, or the file of an integration test.
+            let (file, program) = running.split_once(" (").unwrap_or((running, ""));
+            let name = program.rsplit('/').next().and_then(|name| name.rsplit_once('-'));
+            let name = name.map_or("", |(name, _)| name);
+            let has = |package: &str, file: &str| {
+                packages.get(package).is_some_and(|folder| folder.join(file).is_file())
+            };
+            binary = if let Some(root) = file.strip_prefix("unittests ") {
+                package = name.replace('_', "-");
+                // The program of a package with a library has the library's name.
+                (root == "src/lib.rs" || !has(&package, "src/lib.rs")).then(|| package.clone())
+            } else if has(&package, file) {
+                Some(format!("{package}/{name}"))
+            } else {
+                packages.keys().find(|package| has(package, file)).map(|of| format!("{of}/{name}"))
+            };
+        } else if line.trim_start().starts_with("Doc-tests ") {
+            binary = None;
+        } else if let Some((path, result)) =
+            line.strip_prefix("test ").and_then(|l| l.split_once(" ... "))
+            && let Some(binary) = &binary
+        {
+            results.entry(format!("{binary} {path}")).or_default().push(result.trim().to_owned());
+        }
+    }
+    results
 }
