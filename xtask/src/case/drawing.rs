@@ -10,7 +10,7 @@ const LINE: usize = 14;
 const BETWEEN: usize = 8;
 const MARGIN: usize = 12;
 /// Characters in a line of a box.
-const COLUMNS: usize = 44;
+const COLUMNS: usize = 42;
 
 /// The drawing, as SVG.
 pub(crate) fn draw(nodes: &Nodes) -> String {
@@ -34,9 +34,10 @@ fn place(nodes: &Nodes, id: &str, [x, top]: [usize; 2], tree: &mut String) -> (u
         Kind::Run(name) => (" run", name.as_str()),
         _ => ("", ""),
     };
-    let sentence = node.text.split_once(". ").map_or(node.text.as_str(), |(first, _)| first);
+    // What an experiment would be is on the page.
+    let says = plain(node.text.split(" *Experiment:*").next().unwrap_or_default());
     let mut lines = vec![(format!("{id}{kind}"), " font-weight=\"bold\"")];
-    lines.extend(wrap(&sentence.replace(['`', '*'], "")).into_iter().map(|line| (line, "")));
+    lines.extend(wrap(&says).into_iter().map(|line| (line, "")));
     lines.extend(wrap(name).into_iter().map(|line| (line, " fill=\"#555\" font-size=\"10\"")));
     let own = lines.len() * LINE + 10;
 
@@ -77,6 +78,14 @@ fn place(nodes: &Nodes, id: &str, [x, top]: [usize; 2], tree: &mut String) -> (u
         _ = writeln!(tree, "<text x=\"{x}\" y=\"{y}\"{style}>{text}</text>");
     }
     (middle, [right, bottom.saturating_sub(BETWEEN).max(y + own)])
+}
+
+/// A text without marks, and of links the words only.
+fn plain(text: &str) -> String {
+    let mut parts = text.split("](");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let rest = parts.filter_map(|part| part.split_once(')')).map(|(_, rest)| rest);
+    rest.fold(first, |plain, rest| plain + rest).replace(['`', '*', '['], "")
 }
 
 /// Lines of a text, which is broken where names can be, too.

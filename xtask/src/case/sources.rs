@@ -64,13 +64,18 @@ fn attributes(text: &str, indent: usize, folder: &Path, path: &[&str]) -> Option
         return Some(above.map(str::to_owned).collect());
     }
     let at = lines.iter().position(|line| {
-        let begin = line.trim_start().trim_start_matches("pub(crate) ").trim_start_matches("pub ");
-        let named = begin.strip_prefix("mod ").and_then(|rest| rest.strip_prefix(*name));
-        at_indent(line, indent) && named.is_some_and(|rest| rest == ";" || rest == " {")
+        let declared = line.trim_start().split_once("mod ");
+        let declared =
+            declared.filter(|(before, _)| before.is_empty() || before.starts_with("pub"));
+        let rest = declared.and_then(|(_, declared)| declared.strip_prefix(*name));
+        at_indent(line, indent) && rest.is_some_and(|rest| rest == ";" || rest == " {")
     })?;
     let within = folder.join(name);
     if lines.get(at)?.ends_with('{') {
-        let inside = lines.iter().skip(at + 1).take_while(|line| !at_indent(line, indent));
+        let inside = lines
+            .iter()
+            .skip(at + 1)
+            .take_while(|line| !at_indent(line, indent) || line.trim() != "}");
         let inside: Vec<&str> = inside.copied().collect();
         return attributes(&inside.join("\n"), indent + 4, &within, rest);
     }
