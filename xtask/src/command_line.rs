@@ -201,8 +201,7 @@ enum Command {
     Target,
     /// Generate the code of the MAVLink dialect from its XML; it is checked in
     Mavlink(mavlink::Arguments),
-    /// Check the safety case (`docs/safety-case.md`), and write its drawing; with outputs of tests and proofs, fail if a piece of
-    /// its evidence was not seen there
+    /// Check the safety case (`docs/safety-case.md`), and write its drawing
     Case(case::Arguments),
 }
 

@@ -53,9 +53,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), CaseError> {
     for (line, mistake) in &mistakes {
         _ = writeln!(text, "{PAGE}:{line}: {mistake}");
     }
-    let leaves = nodes.values().filter(|node| node.below.is_empty());
-    let assumed = leaves.clone().filter(|node| node.kind == Kind::Assumption).count();
-    let shown = leaves.filter(|node| node.kind != Kind::Context).count() - assumed;
+    let assumed = nodes.values().filter(|node| node.kind == Kind::Assumption).count();
+    let shown = nodes.values().filter(|node| node.kind.is_evidence()).count();
     _ = writeln!(
         text,
         "{shown} pieces of evidence, {assumed} assumptions, {} mistakes",

@@ -17,6 +17,12 @@ pub(crate) enum Kind {
     Run(String),
 }
 
+impl Kind {
+    pub(crate) fn is_evidence(&self) -> bool {
+        matches!(self, Self::Test(_) | Self::Proof(_) | Self::Run(_))
+    }
+}
+
 /// An item of a list.
 #[derive(Debug)]
 pub(crate) struct Node {
