@@ -320,26 +320,22 @@ async fn the_examples_do_what_they_say() {
     assert_eq!(configuration.get("control:altitude_max"), Some("2500"));
 }
 
-/// The READMEs show the example that was flown above.
+/// Its README shows the example that was flown above.
 #[test]
-fn the_readmes_show_the_example_that_is_flown() {
+fn the_readme_shows_the_example_that_is_flown() {
     let example = include_str!("../../ardrone-link/examples/takeoff_land.rs");
     let program = example.split_inclusive('\n').skip_while(|line| line.starts_with("//!"));
     let program: String = program.collect();
     assert!(program.starts_with("use "), "{program}");
-    for (name, readme) in [
-        ("ardrone-link/README.md", include_str!("../../ardrone-link/README.md")),
-        ("README.md", include_str!("../../README.md")),
-    ] {
-        assert!(readme.contains(&program), "{name} shows another program");
-    }
+    let readme = include_str!("../../ardrone-link/README.md");
+    assert!(readme.contains(&program), "it shows another program");
 }
 
-/// The lines of plans in the README's picture of the terminal are those of the agent.
+/// The lines of plans in the documentation's picture of the terminal are those of the agent.
 #[test]
-fn the_readme_shows_the_lines_of_the_agent() {
-    let readme = include_str!("../../README.md");
-    let words: Vec<&str> = readme.split_whitespace().collect();
+fn the_documentation_shows_the_lines_of_the_agent() {
+    let page = include_str!("../../docs/terminal.md");
+    let words: Vec<&str> = page.split_whitespace().collect();
     let mut shown = 0;
     for pair in words.windows(2) {
         let Ok(line) = pair[1].trim_end_matches(['|', ',', '│']).parse::<u32>() else { continue };

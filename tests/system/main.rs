@@ -13,6 +13,7 @@ mod command_line;
 mod conversation;
 mod cross_checks;
 mod dependencies;
+mod documentation;
 mod estimate;
 mod faults;
 mod fleet;
