@@ -41,6 +41,11 @@ impl Configuration {
         }
     }
 
+    /// Keys and values, in the order of the keys.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
+        self.values.iter().map(|(key, value)| (key.as_str(), value.as_str()))
+    }
+
     /// Number of keys.
     pub fn len(&self) -> usize {
         self.values.len()

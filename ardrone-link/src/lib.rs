@@ -7,6 +7,7 @@
 //! - [`session`]: the client's side of the protocol as a pure state machine: wake-up, configuration with
 //!   acknowledgement, sequence numbers, watchdogs, loss and restart of the drone.
 //! - [`video`]: the live video (TCP 5555): pictures from the stream, without decoding them.
+//! - [`selftest`]: asks a drone on the ground what is assumed of it here.
 //! - [`health`]: evaluation of socket errors.
 //!
 //! - `net`, with the feature of that name: a client on real sockets, using tokio.
@@ -37,6 +38,7 @@ pub mod navdata;
 #[cfg(feature = "net")]
 #[expect(clippy::disallowed_methods, reason = "the client has sockets and a clock")]
 pub mod net;
+pub mod selftest;
 pub mod session;
 pub mod settings;
 pub mod video;

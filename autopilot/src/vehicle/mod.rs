@@ -155,6 +155,38 @@ impl VehicleConfig {
             Pose { x_m, y_m, z_m: 0.0, yaw_deg: heading_deg }
         });
     }
+
+    /// Settings made before each flight, because other clients may have left different values.
+    ///
+    /// # Errors
+    /// [`SettingError`] if the limits cannot be encoded as drone settings.
+    pub fn drone_settings(&self) -> Result<Vec<Config>, SettingError> {
+        let limits = &self.estimator.limits;
+        // Options demo, time, raw_measures (for the battery's voltage) and vision_detect; and the flight recorder's.
+        let options = [0, 1, 2, 16].into_iter().chain(self.gps.then_some(27));
+        let mut settings = vec![
+            Setting::NavdataDemo(self.navdata == NavdataRate::Demo),
+            Setting::NavdataOptions(options.collect()),
+            Setting::Outdoor(false),
+            Setting::AltitudeMaxM(self.limits.ceiling_m),
+            Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),
+            Setting::ClimbMaxMS(limits.climb_m_s),
+            Setting::YawRateMaxDegS(limits.turn_deg_s),
+        ];
+        if self.estimator.tags.is_some() {
+            // The selection counts for other values of the type; some clients of real drones set it too.
+            settings.push(Setting::DetectionsBottom(ROUNDEL_BIT));
+            settings.push(Setting::DetectType(Detection::OrientedRoundel));
+        }
+        if let Some(kbit_s) = self.video_kbit_s {
+            settings.push(Setting::VideoBitRateControl(BitRateControl::Manual));
+            settings.push(Setting::VideoBitRateKbitS(kbit_s));
+        }
+        if let Some(ultrasound) = self.ultrasound {
+            settings.push(Setting::SlowUltrasound(ultrasound == Ultrasound::Slow));
+        }
+        settings.iter().map(Setting::config).collect()
+    }
 }
 
 impl Default for VehicleConfig {
@@ -273,7 +305,7 @@ impl Vehicle {
     /// # Errors
     /// [`SettingError`] if the limits cannot be encoded as drone settings.
     pub fn new(config: &VehicleConfig) -> Result<Self, SettingError> {
-        let settings = drone_settings(config)?;
+        let settings = config.drone_settings()?;
         let session_config = SessionConfig {
             settings: settings.clone(),
             // Only a configuration of one's own has a bit rate that can be set. Without need the drone's own is used, as ever.
@@ -479,35 +511,6 @@ fn pose(state: &Prediction) -> Pose {
         z_m: state.position_m.z,
         yaw_deg: state.yaw_deg,
     }
-}
-
-/// Settings made before each flight, because other clients may have left different values.
-fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
-    let limits = &config.estimator.limits;
-    // Options demo, time, raw_measures (for the battery's voltage) and vision_detect; and the flight recorder's.
-    let options = [0, 1, 2, 16].into_iter().chain(config.gps.then_some(27));
-    let mut settings = vec![
-        Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
-        Setting::NavdataOptions(options.collect()),
-        Setting::Outdoor(false),
-        Setting::AltitudeMaxM(config.limits.ceiling_m),
-        Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),
-        Setting::ClimbMaxMS(limits.climb_m_s),
-        Setting::YawRateMaxDegS(limits.turn_deg_s),
-    ];
-    if config.estimator.tags.is_some() {
-        // The selection counts for other values of the type; some clients of real drones set it too.
-        settings.push(Setting::DetectionsBottom(ROUNDEL_BIT));
-        settings.push(Setting::DetectType(Detection::OrientedRoundel));
-    }
-    if let Some(kbit_s) = config.video_kbit_s {
-        settings.push(Setting::VideoBitRateControl(BitRateControl::Manual));
-        settings.push(Setting::VideoBitRateKbitS(kbit_s));
-    }
-    if let Some(ultrasound) = config.ultrasound {
-        settings.push(Setting::SlowUltrasound(ultrasound == Ultrasound::Slow));
-    }
-    settings.iter().map(Setting::config).collect()
 }
 
 #[cfg(test)]
