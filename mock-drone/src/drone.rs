@@ -17,6 +17,7 @@ use crate::camera::{Camera, CameraModel, FloorTag};
 use crate::faults::{Quantity, Reported, SensorFault, SensorFaults};
 use crate::firmware::{Firmware, Phase};
 use crate::gauss_markov::GaussMarkov;
+use crate::lies::Lies;
 use crate::sensors::{SensorModel, Sensors};
 use crate::telemetry::{Tag27, Telemetry};
 use crate::wind::Wind;
@@ -49,6 +50,8 @@ pub struct DroneConfig {
     pub gps_error_m: f64,
     /// Maximum error of the level reference, unknown to the pilot.
     pub trim_error_deg: f64,
+    /// In which ways its firmware is not as it is assumed to be.
+    pub lies: Lies,
 }
 
 impl Default for DroneConfig {
@@ -66,6 +69,7 @@ impl Default for DroneConfig {
             tag_27: Tag27::Absent,
             gps_error_m: 0.0,
             trim_error_deg: 0.3,
+            lies: Lies::default(),
         }
     }
 }
@@ -193,6 +197,7 @@ impl Drone {
             None => Firmware::new(config.profile, config.battery_percent),
         };
         firmware.set_battery_sag_percent(config.battery_sag_percent);
+        let firmware = firmware.lying(config.lies);
         let airframe = Airframe::new(config.profile, trim_rad);
         let sensors = Sensors::new(config.sensors, config.seed);
         let (airframe, sensors) = match config.flies_at_m {
@@ -278,7 +283,9 @@ impl Drone {
     /// Processes a datagram of the navdata port: a client asks for navdata.
     pub fn handle_wake_up(&mut self, now: Duration) {
         self.advance(now);
-        if !self.listener && !self.is_booting() {
+        let is_deaf =
+            self.config.lies.contains(Lies::DEAF_AFTER_LOSS) && self.firmware.link_is_lost(now);
+        if !self.listener && !self.is_booting() && !is_deaf {
             self.listener = true;
             self.send_navdata(now);
         }
@@ -344,6 +351,12 @@ impl Drone {
     #[cfg(feature = "video")]
     pub fn video_kbit_s(&self) -> u32 {
         self.firmware.video_kbit_s()
+    }
+
+    /// In which ways it is not as it is assumed to be.
+    #[cfg(feature = "video")]
+    pub(crate) fn lies(&self) -> Lies {
+        self.config.lies
     }
 
     /// The roundels on the floor, in the order of their placement.
@@ -437,12 +450,19 @@ impl Drone {
             return;
         }
         let demo_only = self.firmware.is_demo() || self.firmware.is_bootstrapping();
-        self.next_navdata = now + if demo_only { DEMO_PERIOD } else { FULL_PERIOD };
-        self.sequence += 1;
+        let lies = self.config.lies;
+        self.next_navdata = now
+            + match demo_only {
+                true if lies.contains(Lies::SLOW_DEMO) => 3 * DEMO_PERIOD,
+                false if !lies.contains(Lies::SLOW_FULL) => FULL_PERIOD,
+                _ => DEMO_PERIOD,
+            };
+        let is_repeated = lies.contains(Lies::REPEATED_NUMBER) && self.steps.is_multiple_of(10);
+        self.sequence += u32::from(!is_repeated);
         let mut bytes = BytesMut::with_capacity(PACKET_BYTES);
         // All options together are shorter than the maximum packet.
         if self.write_packet(now, demo_only, &mut bytes).is_ok() {
-            self.outgoing.push_back(bytes.freeze());
+            self.outgoing.push_back(lies.spoil(self.sequence, bytes));
         }
     }
 
@@ -479,8 +499,17 @@ impl Drone {
 
     /// The motion as reported in navdata, true or not.
     fn reported(&mut self, now: Duration) -> Reported {
-        let clock = now.saturating_sub(self.switched_on) + CLOCK_AT_START;
-        let mut reported = Reported { reading: self.sensors.read(now), clock };
+        let since = now.saturating_sub(self.switched_on);
+        let lies = self.config.lies;
+        let since = if lies.contains(Lies::FAST_CLOCK) { since * 11 / 10 } else { since };
+        let mut reported =
+            Reported { reading: self.sensors.read(now), clock: since + CLOCK_AT_START };
+        if lies.contains(Lies::TILTED) {
+            reported.reading.pitch_deg = 10.0 - reported.reading.pitch_deg;
+        }
+        if lies.contains(Lies::MOVES_AT_REST) {
+            reported.reading.velocity_m_s.x += 0.5;
+        }
         self.faults.apply(now, &self.config.sensors, &mut reported);
         reported
     }

@@ -9,6 +9,7 @@ use nalgebra::Vector2;
 use crate::airframe::{Airframe, Attitude, Profile, STEP_S, Scaling, Thrust, body_from_world};
 use crate::camera::Detector;
 use crate::configuration::ConfigurationStore;
+use crate::lies::Lies;
 
 /// Time for which the motors run before the drone climbs.
 const SPIN_UP: Duration = Duration::from_millis(900);
@@ -63,6 +64,7 @@ const NEXT_CAMERA: &str = "4";
 #[expect(clippy::struct_excessive_bools, reason = "they are bits of the drone's state word")]
 pub struct Firmware {
     profile: Profile,
+    lies: Lies,
     phase: Phase,
     configuration: ConfigurationStore,
     bootstrapping: bool,
@@ -142,6 +144,7 @@ impl Firmware {
     pub fn new(profile: Profile, battery_percent: f64) -> Self {
         Self {
             profile,
+            lies: Lies::default(),
             phase: Phase::Landed,
             configuration: ConfigurationStore::default(),
             bootstrapping: true,
@@ -176,10 +179,20 @@ impl Firmware {
         }
     }
 
+    /// The same drone with a firmware that is not as it is assumed to be.
+    #[must_use]
+    pub fn lying(self, lies: Lies) -> Self {
+        Self { lies, ..self }
+    }
+
     /// The same drone after a power cycle: only its battery charge remains.
     #[must_use]
     pub fn restarted(&self) -> Self {
-        Self { battery: self.battery, ..Self::new(self.profile, self.charge_percent) }
+        Self {
+            battery: self.battery,
+            lies: self.lies,
+            ..Self::new(self.profile, self.charge_percent)
+        }
     }
 
     /// Processes a datagram of the AT port. Returns the errors of invalid commands; the others take effect.
@@ -201,8 +214,10 @@ impl Firmware {
     fn command(&mut self, now: Duration, sequence: u32, command: Command) {
         // Sequence number 1 restarts the count, and so does a silence that lost the link.
         let silent = self.silence(now).is_none_or(|silence| silence >= LINK_LOSS);
+        let restarts = sequence == 1 && !self.lies.contains(Lies::IGNORES_NUMBER_ONE);
+        let old = self.lies.contains(Lies::OBEYS_OLD_NUMBERS) && sequence != 1;
         let fresh =
-            sequence == 1 || silent || self.last_sequence.is_none_or(|last| sequence > last);
+            restarts || silent || old || self.last_sequence.is_none_or(|last| sequence > last);
         if !fresh {
             return;
         }
@@ -215,7 +230,7 @@ impl Firmware {
                 self.motion.waiting.push_back((now + self.profile.dead_time, motion));
             }
             Command::Config(config) => {
-                self.acknowledge = true;
+                self.acknowledge = !self.lies.contains(Lies::NO_ACKNOWLEDGEMENT);
                 if config.key() == "general:navdata_demo" {
                     self.bootstrapping = false;
                 }
@@ -226,16 +241,20 @@ impl Firmware {
                     (true, true) => FRONT,
                     (true, false) => BOTTOM,
                 };
-                self.configuration.set(config.key(), value);
+                self.store(config.key(), value);
             }
-            Command::Control(ControlMode::ClearAcknowledge) => self.acknowledge = false,
+            Command::Control(ControlMode::ClearAcknowledge) => {
+                self.acknowledge &= self.lies.contains(Lies::STUCK_ACKNOWLEDGEMENT);
+            }
             Command::Control(ControlMode::SendConfiguration) => {
                 self.dump_requested = Some(Dump::Configuration);
             }
             Command::Control(ControlMode::SendCustomConfigurations) => {
                 self.dump_requested = Some(Dump::Identities);
             }
-            Command::CommunicationWatchdog => self.watchdog = false,
+            Command::CommunicationWatchdog => {
+                self.watchdog &= self.lies.contains(Lies::STUCK_WATCHDOG);
+            }
             // Only the place where the level reference is set matters; its value is not modelled.
             Command::FlatTrim => {
                 let grounded = matches!(self.phase, Phase::Landed | Phase::Emergency);
@@ -251,6 +270,18 @@ impl Firmware {
             | Command::Misc(_)
             | Command::ManualTrim { .. }
             | Command::Other { .. } => {}
+        }
+    }
+
+    /// Sets a key.
+    fn store(&mut self, key: &str, value: &str) {
+        match key {
+            "control:altitude_max" if self.lies.contains(Lies::FIXED_CEILING) => {}
+            "control:euler_angle_max" if self.lies.contains(Lies::TILT_IN_DEGREES) => {
+                let degrees = value.parse().map(f64::to_degrees).unwrap_or_default();
+                self.configuration.set(key, &degrees.to_string());
+            }
+            _ => self.configuration.set(key, value),
         }
     }
 
@@ -289,9 +320,9 @@ impl Firmware {
     pub fn step(&mut self, now: Duration, airframe: &Airframe) -> Thrust {
         let silence = self.silence(now);
         if silence.is_some_and(|silence| silence >= WATCHDOG) {
-            self.watchdog = true;
+            self.watchdog = !self.lies.contains(Lies::NO_WATCHDOG);
         }
-        let lost_for = silence.and_then(|silence| silence.checked_sub(LINK_LOSS));
+        let lost_for = silence.and_then(|silence| silence.checked_sub(self.patience()));
         self.drain_battery(airframe);
         self.change_phase(now, lost_for, airframe);
         let motion = self.motion.at(now);
@@ -441,7 +472,17 @@ impl Firmware {
 
     /// Whether the client has been silent long enough for the link to count as lost.
     pub fn link_is_lost(&self, now: Duration) -> bool {
-        self.silence(now).is_some_and(|silence| silence >= LINK_LOSS)
+        self.silence(now).is_some_and(|silence| silence >= self.patience())
+    }
+
+    /// Silence after which the link counts as lost.
+    fn patience(&self) -> Duration {
+        if self.lies.contains(Lies::PATIENT_LINK) { Duration::from_secs(10) } else { LINK_LOSS }
+    }
+
+    /// In which ways it is not as it is assumed to be.
+    pub(crate) fn lies(&self) -> Lies {
+        self.lies
     }
 
     /// Enters bootstrap mode: the drone has to be configured again.
@@ -461,6 +502,9 @@ impl Firmware {
 
     /// Whether option `tag` is requested in demo mode.
     pub fn wants_option(&self, tag: u16) -> bool {
+        if self.lies.contains(Lies::FIXED_OPTIONS) {
+            return matches!(tag, 0 | 16);
+        }
         let mask = self.configuration.text("general:navdata_options");
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
     }
@@ -537,7 +581,7 @@ impl Firmware {
         let airborne =
             matches!(self.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing);
         for (condition, bit) in [
-            (airborne, DroneState::FLYING),
+            (airborne || self.lies.contains(Lies::CLAIMS_TO_FLY), DroneState::FLYING),
             (self.acknowledge, DroneState::COMMAND_ACKNOWLEDGE),
             (self.bootstrapping, DroneState::NAVDATA_BOOTSTRAP),
             (self.is_demo(), DroneState::NAVDATA_DEMO),
@@ -567,9 +611,9 @@ impl Firmware {
 
     /// The reply for the control port, if one was requested since the last call.
     pub fn take_dump(&mut self) -> Option<String> {
-        self.dump_requested.take().map(|requested| match requested {
-            Dump::Configuration => self.configuration.dump(),
-            Dump::Identities => self.configuration.identities(),
-        })
+        match self.dump_requested.take()? {
+            Dump::Configuration => self.lies.spoil_configuration(self.configuration.dump()),
+            Dump::Identities => Some(self.configuration.identities()),
+        }
     }
 }

@@ -5,6 +5,7 @@
 //!   numbers, watchdogs, configuration with acknowledgement.
 //! - [`sensors`]: measurements of the motion: noise, bias, delay.
 //! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
+//! - [`Lies`]: how a firmware may differ from what is assumed of it.
 //! - [`World`]: a drone and its radio link, with datagrams that are late or lost, and faults over time.
 //! - [`World::meet`]: other drones in the same air, as [`Presence`] describes them: the wash below a drone is felt, and two drones
 //!   within 3 m whose ultrasound has the same frequency disturb each other's heights.
@@ -28,6 +29,7 @@ mod drone;
 mod faults;
 pub mod firmware;
 mod gauss_markov;
+mod lies;
 mod link;
 pub mod scenario;
 mod second_pilot;
@@ -46,6 +48,7 @@ pub use air::{Presence, Standing};
 pub use camera::{CameraModel, FloorTag, OrientationSign};
 pub use drone::{Drone, DroneConfig, Truth};
 pub use faults::{Quantity, SensorFault};
+pub use lies::Lies;
 pub use link::LinkFaults;
 pub use telemetry::Tag27;
 pub use truth_log::TruthLog;

@@ -14,6 +14,7 @@ use nalgebra::Vector2;
 
 use crate::airframe::{Airframe, GRAVITY_M_S2};
 use crate::firmware::{Firmware, Phase};
+use crate::lies::Lies;
 use crate::sensors::Reading;
 
 /// Content of option 27, in which firmware versions differ.
@@ -69,6 +70,9 @@ impl Telemetry<'_> {
         Some(match tag {
             0 => NavdataOption::Demo(self.demo()),
             1 => NavdataOption::Time(Time { since_start: self.clock }),
+            2 if self.firmware.lies().contains(Lies::SHORT_OPTION) => {
+                NavdataOption::Unknown { tag, payload: &[0; 44] }
+            }
             2 => NavdataOption::RawMeasures(self.raw_measures()),
             3 => NavdataOption::PhysicalMeasures(self.physical_measures()),
             5 => NavdataOption::EulerAngles(EulerAngles {
@@ -138,6 +142,9 @@ impl Telemetry<'_> {
         // A percentage fits.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let battery_percent = self.firmware.battery_percent().round() as u32;
+        let in_millivolts = self.firmware.lies().contains(Lies::CHARGE_IN_MILLIVOLTS);
+        let battery_percent =
+            if in_millivolts { 9_900 + 26 * battery_percent } else { battery_percent };
         Demo {
             control_state_minor: self.minor_state,
             control_state: self.firmware.control_state(),
@@ -166,14 +173,21 @@ impl Telemetry<'_> {
     fn physical_measures(&self) -> PhysicalMeasures {
         let (pitch, roll) =
             (self.reading.pitch_deg.to_radians(), self.reading.roll_deg.to_radians());
+        // Tilt is told wrongly then, but not felt.
+        let felt_pitch = if self.firmware.lies().contains(Lies::TILTED) {
+            10_f64.to_radians() - pitch
+        } else {
+            pitch
+        };
+        let down = if self.firmware.lies().contains(Lies::GRAVITY_UP) { 1.0 } else { -1.0 };
         let rates_deg_s = self.airframe.angular_rate_rad_s().map(f64::to_degrees);
         PhysicalMeasures {
             accelerometer_temperature_celsius: 45.0,
             gyroscope_temperature: 55_738,
             acceleration_m_s2: [
-                GRAVITY_M_S2 * pitch.sin(),
-                -GRAVITY_M_S2 * pitch.cos() * roll.sin(),
-                -GRAVITY_M_S2 * pitch.cos() * roll.cos(),
+                GRAVITY_M_S2 * felt_pitch.sin(),
+                -GRAVITY_M_S2 * felt_pitch.cos() * roll.sin(),
+                down * GRAVITY_M_S2 * felt_pitch.cos() * roll.cos(),
             ],
             angular_rate_deg_s: [rates_deg_s.x, rates_deg_s.y, rates_deg_s.z].map(single),
             ..PhysicalMeasures::default()

@@ -1,6 +1,6 @@
 //! Command-line arguments.
 
-use crate::FloorTag;
+use crate::{FloorTag, Lies};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
@@ -152,6 +152,9 @@ pub(super) struct FaultArguments {
     /// Maximum random additional latency, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 0)]
     pub(super) jitter: u16,
+    /// A way in which the firmware is not as it is assumed to be; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = lie)]
+    pub(super) lie: Vec<Lies>,
     /// Faults over time, see below
     #[arg(long, value_name = "FILE")]
     pub(super) scenario: Option<PathBuf>,
@@ -201,6 +204,11 @@ fn floor_tag(text: &str) -> Result<FloorTag, String> {
         return Ok(FloorTag::new(x, y, heading));
     }
     Err("expected metres right and forward, and degrees: 1.5,-0.5 or 1.5,-0.5,90".to_owned())
+}
+
+/// One of the names of the lies.
+fn lie(name: &str) -> Result<Lies, String> {
+    Lies::named(name).ok_or_else(|| format!("one of {}", Lies::names().join(", ")))
 }
 
 fn percentage(text: &str) -> Result<f64, String> {

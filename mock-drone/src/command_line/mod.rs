@@ -143,6 +143,7 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
             _ => Vector2::zeros(),
         },
         gusts_m_s: gusts,
+        lies: arguments.faults.lie.iter().copied().collect(),
         ..DroneConfig::default()
     };
     let faults = &arguments.faults;

@@ -309,6 +309,7 @@ impl Server {
             is_out,
             fault: self.world.video_fault(),
             kbit_s: drone.video_kbit_s(),
+            lies: drone.lies(),
         }
     }
 }

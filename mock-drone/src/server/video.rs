@@ -15,6 +15,7 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::time::Instant;
 use tracing::{debug, info, warn};
 
+use crate::lies::Lies;
 use crate::scenario::VideoFault;
 use crate::video::{EncodedPicture, Scene, Sent, Spoiler, VideoEncoder, View};
 
@@ -48,6 +49,8 @@ pub(super) struct Sight {
     pub(super) is_out: bool,
     /// What is wrong with the stream.
     pub(super) fault: Option<VideoFault>,
+    /// What is wrong with its headers, always.
+    pub(super) lies: Lies,
 }
 
 /// A picture, and when it was ready.
@@ -207,9 +210,10 @@ async fn send(
         let segments = picture.bytes.len().div_ceil(SEGMENT_BYTES);
         let again = times_sent_again(segments, lock(sight).loss, &mut random);
         tokio::time::sleep_until(sent + SENT_AGAIN * again).await;
-        let fault = lock(sight).fault;
+        let Sight { fault, lies, .. } = *lock(sight);
         match spoiler.spoil(picture, fault) {
             Sent::Bytes(bytes) => {
+                let bytes = lies.spoil_picture(&bytes);
                 tokio::time::timeout(PATIENCE, stream.write_all(&bytes)).await??;
             }
             Sent::Nothing => {}
