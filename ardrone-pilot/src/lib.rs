@@ -36,6 +36,7 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod runtime;
+pub mod selftest;
 pub mod settings;
 pub mod simulation;
 mod text_file;

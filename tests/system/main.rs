@@ -37,6 +37,7 @@ mod relay;
 mod reports;
 
 mod safety;
+mod selftest;
 mod sensors;
 mod sequence;
 mod setpoints;

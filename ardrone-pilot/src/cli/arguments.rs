@@ -3,7 +3,7 @@
 use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::{Path, PathBuf};
 
-use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, VIDEO_PORT};
+use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
 use autopilot::plan;
 use autopilot::vehicle::VehicleName;
 use clap::error::{ContextKind, ContextValue};
@@ -70,6 +70,8 @@ pub(super) enum Command {
     Check(CheckPlan),
     /// Fly several drones in one room, each along its plan: they keep apart
     Fleet(Box<FlyFleet>),
+    /// Ask a drone on the ground what is assumed of its firmware, and say what differs; its motors stay off
+    Selftest(ExamineDrone),
     /// Make a page about a recorded flight: plots, and why the agent did what it did
     Report {
         /// A flight log
@@ -205,24 +207,8 @@ pub(super) struct Fly {
     /// Settings other than the defaults; `ardrone-pilot config` shows them
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
-    /// Fly a simulated drone, started on free loopback ports
-    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port", "video_port"])]
-    pub(super) mock: bool,
-    /// The drone's address
-    #[arg(long, value_name = "HOST", default_value = DRONE_HOST)]
-    pub(super) drone: String,
-    /// The drone's UDP port for AT commands
-    #[arg(long, value_name = "PORT", default_value_t = AT_PORT)]
-    pub(super) at_port: u16,
-    /// The drone's UDP port for navdata
-    #[arg(long, value_name = "PORT", default_value_t = NAVDATA_PORT)]
-    pub(super) navdata_port: u16,
-    /// The drone's TCP port for its configuration
-    #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
-    pub(super) control_port: u16,
-    /// The drone's TCP port for video
-    #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
-    pub(super) video_port: u16,
+    #[command(flatten)]
+    pub(super) drone: WhichDrone,
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
@@ -244,6 +230,45 @@ pub(super) struct Fly {
     pub(super) record_video: bool,
     #[command(flatten)]
     pub(super) interfaces: Interfaces,
+}
+
+/// The drone, real or simulated.
+#[derive(Debug, Args)]
+pub(super) struct WhichDrone {
+    /// Take a simulated drone, started on free loopback ports
+    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port", "video_port"])]
+    pub(super) mock: bool,
+    /// The drone's address
+    #[arg(long, value_name = "HOST", default_value = DRONE_HOST)]
+    pub(super) drone: String,
+    /// The drone's UDP port for AT commands
+    #[arg(long, value_name = "PORT", default_value_t = AT_PORT)]
+    pub(super) at_port: u16,
+    /// The drone's UDP port for navdata
+    #[arg(long, value_name = "PORT", default_value_t = NAVDATA_PORT)]
+    pub(super) navdata_port: u16,
+    /// The drone's TCP port for its configuration
+    #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
+    pub(super) control_port: u16,
+    /// The drone's TCP port for video
+    #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
+    pub(super) video_port: u16,
+}
+
+/// What is asked of which drone.
+#[derive(Debug, Args)]
+pub(super) struct ExamineDrone {
+    #[command(flatten)]
+    pub(super) drone: WhichDrone,
+    /// The drone's TCP port for FTP
+    #[arg(long, value_name = "PORT", default_value_t = FTP_PORT, conflicts_with = "mock")]
+    pub(super) ftp_port: u16,
+    /// Settings other than the defaults, which a flight would make
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+    /// Print one JSON object per line: each check, and the end
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

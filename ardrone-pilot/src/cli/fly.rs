@@ -12,7 +12,7 @@ use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
 use time::UtcDateTime;
 
-use super::arguments::Fly;
+use super::arguments::{Fly, WhichDrone};
 use super::crew::Crew;
 use super::keys::{self, Keys};
 use super::mavlink::Wanted;
@@ -58,13 +58,13 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     for note in notes(plan.as_ref(), surveyed.as_deref(), &config.limits) {
         progress.print_line(&format!("note: {note}"));
     }
-    let mock = if arguments.mock {
+    let mock = if arguments.drone.mock {
         let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
         Some(MockDrone::start(&simulation::world(&config, plan.as_ref()), ports)?)
     } else {
         None
     };
-    let drone = mock.as_ref().map_or_else(|| drone_address(arguments), mock_address);
+    let drone = mock.as_ref().map_or_else(|| drone_address(&arguments.drone), mock_address);
     progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
     let listener = arguments.interfaces.ui.map(Listener::bind).transpose()?;
     let mavlink = mavlink.map(Station::bind).transpose()?;
@@ -420,7 +420,7 @@ fn page_config(arguments: &Fly, settings: &Settings, recording: Option<&Recordin
 
 /// The drone, for people.
 fn drone_name(arguments: &Fly) -> &str {
-    if arguments.mock { "mock drone" } else { &arguments.drone }
+    if arguments.drone.mock { "mock drone" } else { &arguments.drone.drone }
 }
 
 /// The folder in which this flight and others are recorded.
@@ -456,12 +456,13 @@ fn watch_video(
     }
     let (host, port) = match mock.map(MockDrone::ports) {
         Some(ports) => (ports.host.to_string(), ports.video.unwrap_or_default()),
-        None => (arguments.drone.clone(), arguments.video_port),
+        None => (arguments.drone.drone.clone(), arguments.drone.video_port),
     };
     Some(Video::start(runtime, &host, port, recorder))
 }
 
-fn drone_address(arguments: &Fly) -> DroneAddress {
+/// Where the drone is that is not simulated.
+pub(super) fn drone_address(arguments: &WhichDrone) -> DroneAddress {
     DroneAddress {
         host: arguments.drone.clone(),
         at_port: arguments.at_port,

@@ -13,6 +13,7 @@ mod program;
 mod progress;
 mod prompt;
 mod screen;
+mod selftest;
 mod summary;
 mod terminal;
 
@@ -22,6 +23,7 @@ use std::io::{IsTerminal as _, Read as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use ardrone_link::selftest::Refusal;
 use autopilot::plan::PlanError;
 use clap::CommandFactory as _;
 use clap_complete::Shell;
@@ -40,6 +42,7 @@ use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{ReportError, Reports};
+use crate::selftest::SelfTestError;
 use crate::settings::{Settings, SettingsError};
 use crate::text_file;
 use crate::video::{self, ExportError};
@@ -89,6 +92,8 @@ enum CommandError {
     Mavlink(#[from] MavlinkError),
     #[error(transparent)]
     Flight(#[from] FlightError),
+    #[error(transparent)]
+    SelfTest(#[from] SelfTestError),
 }
 
 impl CommandError {
@@ -105,9 +110,12 @@ impl CommandError {
             Self::Video(ExportError::Format { .. }) | Self::OfPlans => 2,
             Self::Elsewhere(error) => error.exit_status(),
             Self::MavlinkArguments(error) => error.exit_status(),
-            Self::Flight(FlightError::Address { .. }) => 10,
+            Self::Flight(FlightError::Address { .. })
+            | Self::SelfTest(SelfTestError::Refused(Refusal::Silent)) => 10,
+            Self::SelfTest(SelfTestError::Refused(_)) => 30,
             Self::Mock(_)
             | Self::Flight(_)
+            | Self::SelfTest(_)
             | Self::PrintSettings(_)
             | Self::Picture(_)
             | Self::Video(_)
@@ -139,6 +147,7 @@ pub fn main() -> ExitCode {
         }
         (Some(Command::Check(arguments)), _) => check::run(arguments),
         (Some(Command::Fleet(arguments)), _) => fleet::run(arguments, &warnings),
+        (Some(Command::Selftest(arguments)), _) => selftest::run(arguments),
         (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Video { log, output }), _) => write_video(log, output.as_deref()),

@@ -271,7 +271,11 @@ impl Drop for Flight {
     }
 }
 
-fn resolve(host: &str) -> Result<IpAddr, FlightError> {
+/// The address of a host.
+///
+/// # Errors
+/// [`FlightError::Address`] if it has none.
+pub(crate) fn resolve(host: &str) -> Result<IpAddr, FlightError> {
     let error = |source| FlightError::Address { host: host.to_owned(), source };
     let mut addresses = (host, 0).to_socket_addrs().map_err(error)?;
     let address = addresses.find(SocketAddr::is_ipv4);

@@ -1,0 +1,254 @@
+//! A drone is asked what is assumed of its firmware: the simulated one passes, and each of its lies is found.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use ardrone_link::at::{Command, Config, ControlMode, Datagram};
+use ardrone_link::selftest::{Assumption, Contact, Heard, Outcome, Refusal, Report, examine};
+use autopilot::vehicle::VehicleConfig;
+use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{DroneConfig, Lies, LinkFaults, Message, World, WorldConfig};
+
+use crate::processes::program;
+
+/// The simulated drone in simulated time, without video and FTP.
+struct Simulated {
+    world: World,
+    now: Duration,
+    /// Everything that was sent, for what must never be.
+    sent: Vec<u8>,
+}
+
+/// How finely time passes.
+const STEP: Duration = Duration::from_micros(2500);
+
+impl Contact for Simulated {
+    fn now(&self) -> Duration {
+        self.now
+    }
+
+    fn send(&mut self, datagram: &[u8]) {
+        self.sent.extend_from_slice(datagram);
+        self.world.send_at(self.now, datagram);
+    }
+
+    fn wake(&mut self) {
+        self.world.send_wake_up(self.now, &ardrone_link::WAKE_UP);
+    }
+
+    fn next(&mut self, until: Duration) -> Option<Heard> {
+        loop {
+            match self.world.receive(self.now) {
+                Some(Message::Navdata(packet)) => return Some(Heard::Navdata(packet)),
+                Some(Message::Control(text)) => return Some(Heard::Control(text.into())),
+                None if self.now >= until => return None,
+                None => {
+                    self.now = (self.now + STEP).min(until);
+                    self.world.advance(self.now);
+                }
+            }
+        }
+    }
+
+    fn watch(&mut self) -> bool {
+        false
+    }
+
+    fn version(&mut self) -> Option<Result<String, String>> {
+        None
+    }
+}
+
+fn simulated(drone: DroneConfig, link: LinkFaults) -> Simulated {
+    let world = World::new(&WorldConfig { drone, link, ..WorldConfig::default() });
+    Simulated { world, now: Duration::ZERO, sent: Vec::new() }
+}
+
+fn examined(drone: &mut Simulated) -> Result<Report, Refusal> {
+    let settings = VehicleConfig::default().drone_settings().unwrap();
+    let mut told = Vec::new();
+    let report = examine(drone, &settings, &mut |check| told.push(check.clone()))?;
+    assert_eq!(told, report.checks);
+    Ok(report)
+}
+
+fn differing(report: &Report) -> BTreeSet<&'static str> {
+    let differs = report.checks.iter().filter(|check| matches!(check.outcome, Outcome::Differs(_)));
+    differs.map(|check| check.assumption.name()).collect()
+}
+
+/// The configuration that a drone would send now.
+fn configuration(world: &mut World) -> String {
+    let now = world.truth().time + Duration::from_millis(100);
+    let mut datagram = Datagram::new();
+    datagram.push(1, &Command::Control(ControlMode::SendConfiguration)).unwrap();
+    world.send_at(now, datagram.as_bytes());
+    world.advance(now + STEP);
+    std::iter::from_fn(|| world.receive(now + STEP))
+        .find_map(|message| match message {
+            Message::Control(text) => Some(text),
+            Message::Navdata(_) => None,
+        })
+        .unwrap()
+}
+
+#[test]
+fn the_simulated_drone_is_as_it_is_assumed_to_be_and_stays_on_the_ground() {
+    let mut drone = simulated(DroneConfig::default(), LinkFaults::default());
+    // Each client sets this first, whatever it was.
+    let before = configuration(&mut drone.world.clone())
+        .replace("navdata_demo = FALSE", "navdata_demo = TRUE");
+    let report = examined(&mut drone).unwrap();
+    assert_eq!(differing(&report), BTreeSet::new(), "{report:#?}");
+    let asked: Vec<_> = report.checks.iter().map(|check| check.assumption).collect();
+    assert_eq!(asked.len(), Assumption::ALL.len(), "each once");
+    let unasked =
+        report.checks.iter().filter(|check| matches!(check.outcome, Outcome::NotAsked(_)));
+    let unasked: Vec<_> = unasked.map(|check| check.assumption).collect();
+    assert_eq!(unasked, [Assumption::Video], "there is no video in simulated time");
+    assert!(!report.is_as_assumed(), "what was not asked is not known");
+    assert_eq!(configuration(&mut drone.world), before, "what was set is set back");
+    let sent = String::from_utf8(drone.sent).unwrap();
+    for never in ["AT*REF", "AT*PCMD", "AT*FTRIM", "AT*CALIB", "AT*ANIM", "flight_anim"] {
+        assert!(!sent.contains(never), "{never}");
+    }
+    assert!(drone.world.truth().position_m.z.abs() < 1e-9);
+}
+
+/// What each lie is found by, alone.
+const FOUND_BY: [(&str, &[&str]); 26] = [
+    ("no-acknowledgement", &["acknowledged", "found-again", "settings"]),
+    ("stuck-acknowledgement", &["acknowledgement-cleared", "number-one", "old-numbers"]),
+    ("fixed-ceiling", &["settings"]),
+    ("tilt-in-degrees", &["settings"]),
+    ("obeys-old-numbers", &["old-numbers"]),
+    ("ignores-number-one", &["number-one"]),
+    ("no-watchdog", &["watchdog"]),
+    ("stuck-watchdog", &["watchdog-cleared"]),
+    ("patient-link", &["lost-link"]),
+    ("deaf-after-loss", &["found-again"]),
+    ("no-configuration", &["configuration"]),
+    ("endless-configuration", &["configuration"]),
+    ("missing-key", &["settings"]),
+    ("other-version", &["version"]),
+    ("slow-demo", &["demo-rate"]),
+    ("slow-full", &["full-rate"]),
+    ("fixed-options", &["requested-options"]),
+    ("short-option", &["all-options", "requested-options"]),
+    ("wrong-checksum", &["intact"]),
+    ("repeated-number", &["counted"]),
+    ("claims-to-fly", &[]),
+    ("fast-clock", &["clock"]),
+    ("charge-in-millivolts", &["charge"]),
+    ("gravity-up", &["attitude", "gravity"]),
+    ("tilted", &["attitude"]),
+    ("moves-at-rest", &["at-rest"]),
+];
+/// Those of the video, which is not simulated in simulated time.
+const OF_THE_VIDEO: [&str; 2] = ["other-codec", "other-size"];
+
+#[test]
+fn each_lie_is_found() {
+    let mut names: Vec<_> = FOUND_BY.iter().map(|(name, _)| *name).chain(OF_THE_VIDEO).collect();
+    let mut all = Lies::names();
+    names.sort_unstable();
+    all.sort_unstable();
+    assert_eq!(names, all, "each lie is tried");
+    for (name, found_by) in FOUND_BY {
+        let lies = Lies::named(name).unwrap();
+        let mut drone =
+            simulated(DroneConfig { lies, ..DroneConfig::default() }, LinkFaults::default());
+        let found = examined(&mut drone);
+        if lies == Lies::CLAIMS_TO_FLY {
+            assert_eq!(found, Err(Refusal::Flies));
+            assert!(drone.sent.is_empty(), "nothing is sent to a drone that flies");
+            continue;
+        }
+        let report = found.unwrap();
+        let expected: BTreeSet<_> = found_by.iter().copied().collect();
+        assert_eq!(differing(&report), expected, "{name}: {report:#?}");
+    }
+}
+
+#[test]
+fn nothing_is_sent_to_a_drone_that_flies_is_silent_or_obeys_somebody_else() {
+    let flies = DroneConfig { flies_at_m: Some(1.0), ..DroneConfig::default() };
+    let mut flying = simulated(flies, LinkFaults::default());
+    assert_eq!(examined(&mut flying), Err(Refusal::Flies));
+    assert!(flying.sent.is_empty());
+    let mut gone =
+        simulated(DroneConfig::default(), LinkFaults { loss: 1.0, ..LinkFaults::default() });
+    assert_eq!(examined(&mut gone), Err(Refusal::Silent));
+    assert!(gone.sent.is_empty());
+    let scenario = mock_drone::scenario::Scenario::parse("s", "0 second-pilot 60").unwrap();
+    let world = World::new(&WorldConfig { scenario, ..WorldConfig::default() });
+    let mut commanded = Simulated { world, now: Duration::ZERO, sent: Vec::new() };
+    // Somebody has configured the drone, and flies it soon.
+    let mut datagram = Datagram::new();
+    let demo = Config::new("general:navdata_demo", "TRUE").unwrap();
+    datagram.push(1, &Command::Config(demo)).unwrap();
+    commanded.world.send_at(Duration::ZERO, datagram.as_bytes());
+    let refused = examined(&mut commanded);
+    assert!(matches!(refused, Err(Refusal::Commanded | Refusal::Flies)), "{refused:?}");
+    assert!(commanded.sent.is_empty());
+}
+
+/// A link that loses is none of the firmware's lies.
+#[test]
+fn a_bad_link_is_not_taken_for_a_lie() {
+    for seed in 1..=5 {
+        let link = LinkFaults {
+            loss: 0.05,
+            delay: Duration::from_millis(10),
+            jitter: Duration::from_millis(5),
+            ..LinkFaults::default()
+        };
+        let mut drone = simulated(DroneConfig { seed, ..DroneConfig::default() }, link);
+        let report = examined(&mut drone).unwrap();
+        assert_eq!(differing(&report), BTreeSet::new(), "{seed}: {report:#?}");
+    }
+}
+
+/// Over sockets, with video and FTP: the program, as it is called.
+#[test]
+fn the_program_examines_a_drone_on_its_ports() {
+    let examined = |lies: Lies| {
+        let drone = DroneConfig { lies, ..DroneConfig::default() };
+        let ports = Ports { video: Some(0), ftp: Some(0), ..Ports::LOOPBACK };
+        let config = WorldConfig { drone, ..WorldConfig::default() };
+        let mock = MockDrone::start(&config, ports).unwrap();
+        let ports = mock.ports();
+        let mut pilot = program("ardrone-pilot");
+        pilot.args(["selftest", "--json", "--drone", &ports.host.to_string()]);
+        for (name, port) in [
+            ("--at-port", Some(ports.at)),
+            ("--navdata-port", Some(ports.navdata)),
+            ("--control-port", Some(ports.control)),
+            ("--video-port", ports.video),
+            ("--ftp-port", ports.ftp),
+        ] {
+            pilot.args([name, &port.unwrap().to_string()]);
+        }
+        let output = pilot.output().unwrap();
+        let lines = String::from_utf8_lossy(&output.stdout);
+        let lines: Vec<serde_json::Value> =
+            lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let differing = lines.iter().filter(|line| line["outcome"] == "differs");
+        let differing: Vec<_> =
+            differing.map(|line| line["assumption"].as_str().unwrap().to_owned()).collect();
+        let end = lines.last().unwrap();
+        assert_eq!(end["not_asked"], 0, "{lines:#?}");
+        assert_eq!(end["exit_status"], output.status.code().unwrap());
+        (output.status.code(), differing)
+    };
+    let tried = [Lies::empty(), Lies::OTHER_CODEC, Lies::OTHER_SIZE, Lies::OTHER_VERSION];
+    let found = tried.map(|lies| std::thread::spawn(move || examined(lies)));
+    let found = found.map(|examined| examined.join().unwrap());
+    let differs = |assumption: &str| (Some(70), vec![assumption.to_owned()]);
+    assert_eq!(found[0], (Some(0), Vec::new()));
+    assert_eq!(found[1], differs("video"));
+    assert_eq!(found[2], differs("video"));
+    // The configuration says another version, and something else than the file.
+    let twice = vec!["version".to_owned(); 2];
+    assert_eq!(found[3], (Some(70), twice));
+}
