@@ -24,12 +24,13 @@ for program in "${programs[@]}"; do
     "$release/$program" completions fish >"$made/fish/$program.fish"
 done
 for program in "${with_commands[@]}"; do
-    # As its own page names them, `PROGRAM-COMMAND(1)`, with each hyphen escaped.
-    for command in $(sed -n "s/^${program//-/\\\\\\\\-}\\\\-\(.*\)(1)$/\1/p" "$made/man/$program.1" | tr -d '\\'); do
+    # As its own page names them: `PROGRAM-COMMAND(1)`, with hyphens escaped.
+    for command in $(tr -d '\\' <"$made/man/$program.1" | sed -n "s/^$program-\(.*\)(1)$/\1/p"); do
         "$release/$program" man "$command" >"$made/man/$program-$command.1"
     done
 done
 
+gzip -9n "$made"/man/*
 packaging/licences.py "${programs[@]}" | gzip -9n >"$made/licences-of-libraries.gz"
 
 # Debian's form of a changelog; the product's own has more.
@@ -50,4 +51,4 @@ ardrone-pilot ($version-1) unstable; urgency=medium
 END
 
 # It has been built above, with features that cargo-deb would not choose.
-cargo deb --package ardrone-pilot --no-build --locked --offline --maintainer "$maintainer"
+cargo deb --package ardrone-pilot --no-build --strip --locked --offline --maintainer "$maintainer"
