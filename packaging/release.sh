@@ -19,7 +19,7 @@ step "nothing is uncommitted"
 step "one version"
 version=$(sed -n '/^\[workspace.package\]/,/^$/ s/^version = "\(.*\)"$/\1/p' Cargo.toml)
 # The crates are made to fit each other, whatever their numbers promise.
-others=$(sed -n 's/^[a-z0-9-]* = { path = ".*", version = "\([^"]*\)".*/\1/p' Cargo.toml | grep -vxF "$version" || true)
+others=$(sed -n 's/^[a-z0-9-]* = { path = ".*", version = "=\{0,1\}\([^"]*\)".*/\1/p' Cargo.toml | grep -vxF "$version" || true)
 [ -z "$others" ] || fail "crates of the workspace depend on $others, not on $version"
 grep -qx "version = \"$version\"" fuzz/Cargo.toml || fail "fuzz/Cargo.toml has another version than $version"
 grep -qxE "## ${version//./\\.} \([0-9]{4}-[0-9]{2}-[0-9]{2}\)" CHANGELOG.md ||
