@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use translator::Code;
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
@@ -156,6 +157,18 @@ pub(super) enum Task {
     /// the event of each step, its plan and the actions, with lines of the agent. Values are not part of the
     /// model, so the counterexample may need an environment that cannot exist.
     Verify(Verify),
+    /// Print what a shell needs to complete the command line
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Print the manual page of the program, or of one of its commands
+    Man {
+        /// The command
+        #[arg(value_name = "COMMAND")]
+        command: Option<String>,
+    },
 }
 
 /// Arguments of `asl2c verify`.

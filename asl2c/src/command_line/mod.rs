@@ -19,7 +19,8 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
+use clap_complete::Shell;
 use judged_c::Refused;
 use translator::{Code, Diagnostic, Diagnostics, Severity, TranslateError, translate};
 
@@ -118,6 +119,8 @@ pub fn run() -> ExitCode {
             let text = explained(code.as_deref());
             (print("the explanation", &text).map(|()| ExitCode::SUCCESS), false)
         }
+        (Some(Task::Completions { shell }), _) => (print_completions(*shell), false),
+        (Some(Task::Man { command }), _) => (manual(command.as_deref()), false),
         (Some(Task::Fmt(asked)), _) => (fmt::run(asked), is_json(&asked.message_format)),
         (Some(Task::Lsp { .. }), _) => (serve_editor(), false),
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
@@ -149,6 +152,30 @@ fn explained(code: Option<&str>) -> String {
     };
     let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
     format!("{severity} `{}`: {}\n\n{}\n", code.name(), code.meaning(), code.explanation())
+}
+
+fn print_completions(shell: Shell) -> Result<ExitCode, CommandError> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "asl2c", &mut script);
+    print("the completions", &String::from_utf8_lossy(&script)).map(|()| ExitCode::SUCCESS)
+}
+
+/// Prints the manual page of the program, or of one of its commands.
+fn manual(command: Option<&str>) -> Result<ExitCode, CommandError> {
+    let mut program = Arguments::command().disable_help_subcommand(true);
+    // What names the commands' pages.
+    program.build();
+    let documented = match command {
+        Some(name) => program.find_subcommand(name).cloned(),
+        None => Some(program),
+    };
+    let documented = documented.ok_or_else(|| {
+        CommandError::Usage(format!("there is no command `{}`", command.unwrap_or_default()))
+    })?;
+    let mut page = Vec::new();
+    let rendered = clap_mangen::Man::new(documented).render(&mut page);
+    rendered.map_err(|source| CommandError::Print { what: "the manual page", source })?;
+    print("the manual page", &String::from_utf8_lossy(&page)).map(|()| ExitCode::SUCCESS)
 }
 
 /// Serves an editor until it leaves.

@@ -50,6 +50,18 @@ fn warnings_have_codes_and_come_in_order() {
 }
 
 #[test]
+fn shells_and_manuals_are_served() {
+    let folder = folder();
+    let zsh = asl2c(folder.path(), &["completions", "zsh"]);
+    assert!(String::from_utf8_lossy(&zsh.stdout).starts_with("#compdef asl2c"));
+    let manual = asl2c(folder.path(), &["man"]);
+    assert!(String::from_utf8_lossy(&manual.stdout).contains(".TH asl2c 1"));
+    let manual = asl2c(folder.path(), &["man", "verify"]);
+    assert!(String::from_utf8_lossy(&manual.stdout).contains(".TH asl2c-verify 1"));
+    assert_eq!(asl2c(folder.path(), &["man", "fly"]).status.code(), Some(1));
+}
+
+#[test]
 fn what_is_denied_is_not_translated() {
     for (arguments, denied) in [
         (&["-D", "warnings"][..], true),

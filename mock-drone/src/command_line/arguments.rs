@@ -5,15 +5,18 @@ use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 /// A simulated AR.Drone 2.0 for any client of the real drone.
 ///
 /// It boots, waits to be configured, takes off, flies, lands and drains its battery like the real one, and
 /// lands when its pilot is silent. It runs until it is stopped.
 #[derive(Debug, Parser)]
-#[command(version, after_help = AFTER_HELP)]
+#[command(version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
     #[command(flatten)]
     pub(super) ports: PortArguments,
     #[command(flatten)]
@@ -27,6 +30,23 @@ pub(super) struct Arguments {
     /// Write the true state to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(super) truth: Option<PathBuf>,
+}
+
+/// Subcommands: what a package installs beside the program.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Print what a shell needs to complete the command line
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Print the manual page of the program, or of one of its commands
+    Man {
+        /// The command
+        #[arg(value_name = "COMMAND")]
+        command: Option<String>,
+    },
 }
 
 const AFTER_HELP: &str = "\

@@ -8,11 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 use nalgebra::Vector2;
 use tokio::signal::unix::{SignalKind, signal};
 
-use self::arguments::{Airframe, Arguments, DroneArguments, Option27, PortArguments, Sensors};
+use self::arguments::{
+    Airframe, Arguments, Command, DroneArguments, Option27, PortArguments, Sensors,
+};
 use crate::airframe::Profile;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::SensorModel;
@@ -28,6 +30,10 @@ enum CommandError {
     Scenario(#[from] ScenarioError),
     #[error(transparent)]
     Server(#[from] ServerError),
+    #[error("there is no command `{0}`")]
+    NoCommand(String),
+    #[error("cannot print: {0}")]
+    Print(#[source] std::io::Error),
 }
 
 /// Runs the program until it is stopped. Returns its exit status.
@@ -39,7 +45,12 @@ pub fn run() -> ExitCode {
         .with_target(false)
         .log_internal_errors(false)
         .init();
-    match serve(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let done = match &arguments.command {
+        Some(command) => print(command),
+        None => serve(&arguments),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // The diagnostics of a scenario need no prefix.
@@ -50,6 +61,36 @@ pub fn run() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Prints what a subcommand asks for.
+fn print(command: &Command) -> Result<(), CommandError> {
+    let mut program = Arguments::command().disable_help_subcommand(true);
+    let text = match command {
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut program, "mock-drone", &mut script);
+            script
+        }
+        Command::Man { command } => manual(program, command.as_deref())?,
+    };
+    let mut stdout = std::io::stdout().lock();
+    stdout.write_all(&text).and_then(|()| stdout.flush()).map_err(CommandError::Print)
+}
+
+/// The manual page of the program, or of one of its commands.
+fn manual(mut program: clap::Command, command: Option<&str>) -> Result<Vec<u8>, CommandError> {
+    // What names the commands' pages.
+    program.build();
+    let documented = match command {
+        Some(name) => program.find_subcommand(name).cloned(),
+        None => Some(program),
+    };
+    let documented = documented
+        .ok_or_else(|| CommandError::NoCommand(command.unwrap_or_default().to_owned()))?;
+    let mut page = Vec::new();
+    clap_mangen::Man::new(documented).render(&mut page).map_err(CommandError::Print)?;
+    Ok(page)
 }
 
 fn serve(arguments: &Arguments) -> Result<(), CommandError> {
@@ -176,4 +217,24 @@ fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {
         path: path.to_owned(),
         source,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn manual_pages_say_what_the_help_says() {
+        let page = |command| manual(Arguments::command(), command).map(String::from_utf8);
+        let of_program = page(None).unwrap().unwrap();
+        assert!(of_program.contains(".TH mock-drone 1") && of_program.contains("Scenario files"));
+        assert!(page(Some("man")).unwrap().unwrap().contains(".TH mock-drone-man 1"));
+        assert!(matches!(page(Some("fly")), Err(CommandError::NoCommand(_))));
+    }
+
+    #[test]
+    fn a_drone_is_not_asked_for_with_a_subcommand() {
+        assert!(Arguments::try_parse_from(["mock-drone", "completions", "zsh"]).is_ok());
+        assert!(Arguments::try_parse_from(["mock-drone", "--seed", "2", "man"]).is_err());
+    }
 }
