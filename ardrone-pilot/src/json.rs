@@ -42,6 +42,19 @@ fn escaped(json: &str) -> String {
     text
 }
 
+/// Version of the orders and objects of `--json`: greater when one of them has another meaning, not when there are more of them.
+const INTERFACE: u32 = 1;
+
+/// The first object, by which a program knows what it talks with.
+pub(crate) fn hello() -> Value {
+    json!({
+        "type": "hello",
+        "program": "ardrone-pilot",
+        "version": env!("CARGO_PKG_VERSION"),
+        "interface": INTERFACE,
+    })
+}
+
 /// A message of the flight.
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     let mut object = content(&message.content, steps);

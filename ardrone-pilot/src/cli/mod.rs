@@ -39,6 +39,7 @@ use crate::fleet::FleetError;
 use crate::flight::FlightError;
 use crate::mavlink::MavlinkError;
 use crate::plan_drawing::PlanDrawingError;
+use crate::json;
 use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{ReportError, Reports};
@@ -141,6 +142,9 @@ pub fn main() -> ExitCode {
         .without_time()
         .log_internal_errors(false)
         .init();
+    if arguments.speaks_json() {
+        fly::print_object(&json::hello());
+    }
     let done = match (&arguments.command, &arguments.fly) {
         (Some(Command::Check(arguments)), _) if check_fleet::is_fleet(&arguments.plan) => {
             check_fleet::run(arguments)
