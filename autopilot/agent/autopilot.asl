@@ -59,7 +59,7 @@ ontoTagTime(4000).
 tagPatience(2000).
 tagLowest(0.6).
 
-// Set-points that stop coming: the drone holds after this, and lands after that. Milliseconds.
+// Setpoints that stop coming: the drone holds after this, and lands after that. Milliseconds.
 holdWithoutSetpoints(500).
 landWithoutSetpoints(10500).
 // The ground station that has the controls is silent: that is told after this. Milliseconds. When the drone holds, and when it
@@ -740,7 +740,7 @@ stayTime(2000).
 @danger_steering[req("SAF-4"), req("SAF-5")]
 -!steer <- !goDown; !comeDown.
 
-// To where an operator's set-points say, as long as they keep coming. Where they have stopped, only another order begins anew.
+// To where an operator's setpoints say, as long as they keep coming. Where they have stopped, only another order begins anew.
 
 +!follow : onGround
   <- -comingDown;

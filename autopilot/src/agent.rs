@@ -86,7 +86,7 @@ pub struct Percepts {
     pub wind: f64,
     /// An operator flies by stick.
     pub steering: bool,
-    /// The set-points that an operator sends; `None` if they are not followed.
+    /// The setpoints that an operator sends; `None` if they are not followed.
     pub setpoint: Option<SetpointPercept>,
     /// Whether the operator's ground station can be heard.
     pub station: StationPercepts,
@@ -100,7 +100,7 @@ pub struct Percepts {
     pub tags: Option<TagPercepts>,
 }
 
-/// The set-points that are followed.
+/// The setpoints that are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetpointPercept {
     /// Where they want the drone now.

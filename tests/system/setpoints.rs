@@ -1,4 +1,4 @@
-//! Set-points of a ground station, and plans as it writes them, flown in simulated time.
+//! Setpoints of a ground station, and plans as it writes them, flown in simulated time.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ const PROFILES: [fn() -> Profile; 4] = [Profile::rec, Profile::tum, Profile::tf,
 struct Bench {
     driver: Driver<Simulated>,
     events: Vec<FlightEvent>,
-    /// Set-point sent every [`PERIOD`].
+    /// Setpoint sent every [`PERIOD`].
     sent: Option<Setpoint>,
     next_at: Duration,
 }
@@ -142,7 +142,7 @@ fn a_square_is_flown_by_set_points() {
     }
 }
 
-/// Set-points on a circle, which move all the time.
+/// Setpoints on a circle, which move all the time.
 #[test]
 fn a_place_that_moves_is_followed() {
     const RADIUS_M: f64 = 1.5;

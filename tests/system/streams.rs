@@ -10,7 +10,7 @@ const FIRST: [u64; 4] = [1, 17, 33, 49];
 const STREAMS: u64 = 16;
 
 /// Each leads too far without one rule: a reference that begins anew when the drone is told to stay elsewhere, and the drag in
-/// the braking of set-points of rest.
+/// the braking of setpoints of rest.
 const LED_TOO_FAR: [u64; 2] = [1142, 1070];
 
 #[test]

@@ -24,7 +24,7 @@ pub struct Activity {
     pub(super) approached_ms: i64,
     /// Duration of the stay before it was interrupted by a search for a tag.
     stayed_ms: i64,
-    /// Where it stays, or comes down, or where the course of its set-points has got to.
+    /// Where it stays, or comes down, or where the course of its setpoints has got to.
     place: Option<Pose>,
     /// Time of the last command of a search, in milliseconds.
     searched_ms: Option<i64>,
@@ -56,7 +56,7 @@ impl Activity {
     pub(super) fn place_to_stay(&self, pose: &Pose) -> Pose {
         match (self.pursuit, self.place) {
             (Some((Pursuit::Staying, _)), Some(place)) => place,
-            // A course leads across only: the height and the heading of a set-point may be far away.
+            // A course leads across only: the height and the heading of a setpoint may be far away.
             (None, Some(place)) => Pose { x_m: place.x_m, y_m: place.y_m, ..*pose },
             // How high it is decides when it is down.
             (Some((Pursuit::Descending, _)), Some(place)) => Pose { z_m: pose.z_m, ..place },

@@ -23,7 +23,7 @@ pub enum Danger {
     NoTag,
     /// The tag to land on is not seen any more.
     TagLost,
-    /// The set-points that were followed have not come for too long.
+    /// The setpoints that were followed have not come for too long.
     SetpointsGone,
     /// The ground station that has the controls is silent: a warning, in every step.
     StationSilent,
@@ -79,7 +79,7 @@ impl fmt::Display for Danger {
             Self::Searching => "the place is doubtful, and a tag is looked for",
             Self::NoTag => "no tag was found",
             Self::TagLost => "the tag to land on is not seen any more",
-            Self::SetpointsGone => "set-points have not come for too long",
+            Self::SetpointsGone => "setpoints have not come for too long",
             Self::StationSilent => "the ground station is silent",
             Self::StationGone => "the ground station has been silent for too long",
         })

@@ -97,9 +97,9 @@ pub enum FlightEvent {
     ManualTargetSet,
     /// The manual target was reached.
     ManualTargetReached,
-    /// An operator's set-points are followed.
+    /// An operator's setpoints are followed.
     FollowingSetpoints,
-    /// The set-points have stopped coming: the drone holds.
+    /// The setpoints have stopped coming: the drone holds.
     SetpointsSilent,
     /// The ground station that has the controls is silent: a warning.
     StationSilent,
@@ -211,8 +211,8 @@ impl fmt::Display for FlightEvent {
             Self::Steered => f.write_str("manual control"),
             Self::ManualTargetSet => f.write_str("flying to a manual target"),
             Self::ManualTargetReached => f.write_str("manual target reached"),
-            Self::FollowingSetpoints => f.write_str("following set-points"),
-            Self::SetpointsSilent => f.write_str("set-points have stopped: holding"),
+            Self::FollowingSetpoints => f.write_str("following setpoints"),
+            Self::SetpointsSilent => f.write_str("setpoints have stopped: holding"),
             Self::StationSilent => f.write_str("the ground station is silent"),
             Self::PausedForStation => {
                 f.write_str("the ground station is silent: holding, mission paused")

@@ -40,7 +40,7 @@ pub enum LandingReason {
     PlaceUncertain,
     /// The wind is stronger than the drone.
     Wind,
-    /// The operator's set-points have not come for too long.
+    /// The operator's setpoints have not come for too long.
     SetpointsGone,
     /// The ground station that has the controls has been silent for too long.
     StationGone,
@@ -70,7 +70,7 @@ impl fmt::Display for LandingReason {
             Self::Wind => f.write_str(
                 "the drone does not hold its position: too much wind, or a wrong velocity",
             ),
-            Self::SetpointsGone => f.write_str("no set-points for too long"),
+            Self::SetpointsGone => f.write_str("no setpoints for too long"),
             Self::StationGone => f.write_str("the ground station has been silent for too long"),
             Self::DroneFault(fault) => f.write_str(fault),
             Self::TakeOverRefused => f.write_str("the drone must not continue to fly"),

@@ -1,6 +1,6 @@
 //! What the vehicle is doing: one state, from which everything else is derived.
 //!
-//! What belongs to a state is kept in it, so that it ends with the state: a step that is flown, sticks and set-points with the
+//! What belongs to a state is kept in it, so that it ends with the state: a step that is flown, sticks and setpoints with the
 //! flight, the reason of a landing with the landing. `ARCHITECTURE.md` draws the states and what leads from one to another.
 
 use std::time::Duration;

@@ -52,7 +52,7 @@ pub(super) enum Mode {
         target: Pose,
         /// The way there.
         course: Course,
-        /// The agent has stopped following, and waits for whoever sent the set-points.
+        /// The agent has stopped following, and waits for whoever sent the setpoints.
         stopped: bool,
     },
 }
@@ -66,7 +66,7 @@ pub enum ManualControl {
     Sticks,
     /// It flies to a place.
     Target,
-    /// It follows set-points.
+    /// It follows setpoints.
     Setpoints,
 }
 
@@ -110,7 +110,7 @@ impl Manual {
         })
     }
 
-    /// The set-points that are followed, or were until they stopped.
+    /// The setpoints that are followed, or were until they stopped.
     pub(super) fn setpoint(&self, now: Duration) -> Option<SetpointPercept> {
         let Mode::Following { at, target, course, .. } = self.mode else { return None };
         let age = now.saturating_sub(at);
@@ -121,7 +121,7 @@ impl Manual {
         })
     }
 
-    /// The way to the target of the set-points that are followed, if this is it. Its heading may differ.
+    /// The way to the target of the setpoints that are followed, if this is it. Its heading may differ.
     pub(super) fn course(&self, to: &Pose) -> Option<&Course> {
         match &self.mode {
             Mode::Following { target, course, stopped: false, .. }

@@ -1,4 +1,4 @@
-//! Manual control: hold, fly by stick, fly to a place, follow set-points, go on with the mission.
+//! Manual control: hold, fly by stick, fly to a place, follow setpoints, go on with the mission.
 
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ impl Vehicle {
         }
     }
 
-    /// Begins to follow set-points.
+    /// Begins to follow setpoints.
     pub(super) fn follow(&mut self, now: Duration, setpoint: Setpoint) {
         if self.next_setpoint(now, setpoint).is_ok() {
             return;
@@ -54,7 +54,7 @@ impl Vehicle {
         self.fly_by_hand(mode, Goal::Follow, FlightEvent::FollowingSetpoints);
     }
 
-    /// The next set-point. After the agent has stopped following it only shows that its sender is there.
+    /// The next setpoint. After the agent has stopped following it only shows that its sender is there.
     pub(super) fn next_setpoint(&mut self, now: Duration, next: Setpoint) -> Result<(), Refused> {
         let mode = self.life.flying_mut().map(|flying| &mut flying.manual.mode);
         let Some(Mode::Following { setpoint, at, stopped, .. }) = mode else {
@@ -64,7 +64,7 @@ impl Vehicle {
         if *stopped { Err(Refused::NotFollowing) } else { Ok(()) }
     }
 
-    /// Moves the target of the set-points that are followed.
+    /// Moves the target of the setpoints that are followed.
     pub(super) fn advance_setpoint(&mut self, state: &Prediction, step_s: f64) {
         let fence = self.config.limits;
         let limits = self.course_limits();

@@ -42,10 +42,10 @@ pub enum OperatorOrder<P = Plan, C = Commands> {
     Steer(Sticks),
     /// Fly to this place and stay there; the mission is paused. A place near or outside the fence is moved inside.
     GoTo(Place),
-    /// Follow set-points, of which this is the first; the mission is paused. If the next ones stop coming for 0.5 s the
+    /// Follow setpoints, of which this is the first; the mission is paused. If the next ones stop coming for 0.5 s the
     /// drone holds, and ten seconds later it lands.
     Follow(Setpoint),
-    /// The next set-point, while they are followed.
+    /// The next setpoint, while they are followed.
     Setpoint(Setpoint),
     /// Nothing but that the operator's station is there. A station that speaks `MAVLink` and has the controls must be
     /// heard: by this or any other order.

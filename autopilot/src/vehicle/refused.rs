@@ -34,8 +34,8 @@ pub enum Refused {
     /// The mission is already being flown.
     #[error("the mission is being flown already")]
     Flying,
-    /// No set-points are followed.
-    #[error("set-points are not followed: order it first")]
+    /// No setpoints are followed.
+    #[error("setpoints are not followed: order it first")]
     NotFollowing,
     /// Nothing is paused.
     #[error("nothing is held: there is nothing to resume")]

@@ -1,4 +1,4 @@
-//! Set-points of an operator's program: where the drone shall be, or how fast it shall fly, several times a second.
+//! Setpoints of an operator's program: where the drone shall be, or how fast it shall fly, several times a second.
 
 use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
@@ -102,7 +102,7 @@ impl Setpoint {
         horizontal && vertical.is_finite() && heading
     }
 
-    /// Moves a course as this set-point wants, for `step_s`. The drone is at `pose`; the course stays inside the border by
+    /// Moves a course as this setpoint wants, for `step_s`. The drone is at `pose`; the course stays inside the border by
     /// `by_m`. A drone that slows down is also braked by its drag.
     pub(super) fn advance(
         &self,

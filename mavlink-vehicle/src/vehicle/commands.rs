@@ -360,7 +360,7 @@ impl MavlinkVehicle {
                 let source =
                     if mode == Mode::Position { Source::Sticks } else { Source::Setpoints };
                 let Some(setpoint) = self.following.fresh(now, source, by) else {
-                    let why = format_args!("no fresh set-points or sticks to follow");
+                    let why = format_args!("no fresh setpoints or sticks to follow");
                     return self.denied(why);
                 };
                 if self.mode() == mode && self.following.followed() == Some((source, by)) {

@@ -1,4 +1,4 @@
-//! Set-points and sticks of operators: what came last, and whose are followed.
+//! Setpoints and sticks of operators: what came last, and whose are followed.
 
 use std::time::Duration;
 
@@ -7,13 +7,13 @@ use autopilot::vehicle::{Operator, Setpoint};
 use super::setpoints::Joystick;
 use crate::dialect::MANUAL_CONTROL_DATA;
 
-/// A set-point that is older is none.
+/// A setpoint that is older is none.
 const SETPOINT_TIME: Duration = Duration::from_millis(500);
 /// Sticks that have been silent for so long must be seen in the middle again.
 const STICKS_TIME: Duration = Duration::from_secs(1);
-/// The same set-point again is not passed on sooner than this; the vehicle decides no faster.
+/// The same setpoint again is not passed on sooner than this; the vehicle decides no faster.
 const SETPOINT_EVERY: Duration = Duration::from_millis(20);
-/// Set-points that are refused are told no more often than this.
+/// Setpoints that are refused are told no more often than this.
 const TELL_EVERY: Duration = Duration::from_secs(2);
 
 /// By what an operator moves the drone all the time.
@@ -45,7 +45,7 @@ pub(super) struct Following {
 }
 
 impl Following {
-    /// A set-point has come. Returns whether it is to be followed.
+    /// A setpoint has come. Returns whether it is to be followed.
     pub(super) fn take_setpoint(
         &mut self,
         now: Duration,
@@ -93,7 +93,7 @@ impl Following {
         self.followed = followed;
     }
 
-    /// Whether a set-point's refusal is to be told: now and then.
+    /// Whether a setpoint's refusal is to be told: now and then.
     pub(super) fn tells_refusal(&mut self, now: Duration) -> bool {
         let tells = self.refusal_told.is_none_or(|at| now.saturating_sub(at) >= TELL_EVERY);
         if tells {

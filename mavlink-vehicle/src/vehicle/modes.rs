@@ -17,7 +17,7 @@ pub(crate) enum Mode {
     Land,
     /// Fly to the start and land.
     Return,
-    /// Follow set-points.
+    /// Follow setpoints.
     Offboard,
     /// Fly by hand: `MANUAL_CONTROL`.
     Position,
@@ -139,7 +139,7 @@ pub(crate) enum Purpose {
 pub(crate) struct Doing {
     /// Of the mission that it has.
     pub(crate) purpose: Purpose,
-    /// Its set-points are those of sticks.
+    /// Its setpoints are those of sticks.
     pub(crate) by_hand: bool,
     /// Its mission is not at its end, even if it is between two steps.
     pub(crate) goes_on: bool,

@@ -22,7 +22,7 @@ pub(super) enum After {
     Nothing,
     /// The vehicle is armed.
     Armed,
-    /// The set-points or sticks of this operator are followed.
+    /// The setpoints or sticks of this operator are followed.
     Follows(Source),
 }
 

@@ -35,7 +35,7 @@ pub(crate) const TAKE_OFF_HEIGHT: &str = "MIS_TAKEOFF_ALT";
 /// Horizontal speed in missions that set none, in m/s.
 pub(crate) const CRUISE_SPEED: &str = "MPC_XY_CRUISE";
 
-/// Silence of set-points or sticks after which the drone holds, in seconds.
+/// Silence of setpoints or sticks after which the drone holds, in seconds.
 const SILENT_S: f32 = 0.5;
 /// What PX4's pages of QGroundControl's Vehicle Setup name.
 const MAGNETOMETERS: [&str; 3] = ["CAL_MAG0_ID", "CAL_MAG1_ID", "CAL_MAG2_ID"];

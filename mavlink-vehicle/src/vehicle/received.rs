@@ -245,7 +245,7 @@ impl MavlinkVehicle {
         }
     }
 
-    /// Passes a set-point on that is followed.
+    /// Passes a setpoint on that is followed.
     fn pass_on(&mut self, station: Station, setpoint: Setpoint) {
         self.stations.orders(station);
         self.order_quietly(station.operator(), OperatorOrder::Setpoint(setpoint));

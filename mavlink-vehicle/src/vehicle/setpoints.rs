@@ -1,4 +1,4 @@
-//! Set-points (`SET_POSITION_TARGET_*`) in our frame, and those that sticks ask for (`MANUAL_CONTROL`).
+//! Setpoints (`SET_POSITION_TARGET_*`) in our frame, and those that sticks ask for (`MANUAL_CONTROL`).
 
 use autopilot::vehicle::{Heading, Horizontal, Setpoint, Vertical};
 use kinematics::{Pose, world_from_body};
@@ -10,10 +10,10 @@ use crate::dialect::{
 };
 use crate::place::Origin;
 
-/// Why a set-point is not followed.
+/// Why a setpoint is not followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NoSetpoint {
-    #[error("set-points in frame {0} are not supported")]
+    #[error("setpoints in frame {0} are not supported")]
     Frame(u8),
     #[error("accelerations and forces are not supported: set their bits in type_mask")]
     Acceleration,
@@ -33,7 +33,7 @@ const PLACE: Mask =
 const VELOCITY: Mask =
     Mask::POSITION_TARGET_TYPEMASK_VX_IGNORE.union(Mask::POSITION_TARGET_TYPEMASK_VY_IGNORE);
 
-/// What the two kinds of set-points have in common.
+/// What the two kinds of setpoints have in common.
 struct Fields {
     mask: Mask,
     velocity: [f32; 3],
@@ -104,7 +104,7 @@ impl Fields {
     }
 }
 
-/// A set-point in a local frame; the drone is at `pose`.
+/// A setpoint in a local frame; the drone is at `pose`.
 pub(crate) fn local(
     data: &SET_POSITION_TARGET_LOCAL_NED_DATA,
     origin: &Origin,
@@ -156,7 +156,7 @@ pub(crate) fn local(
     Ok(Setpoint { horizontal, vertical, heading })
 }
 
-/// A set-point by latitude and longitude.
+/// A setpoint by latitude and longitude.
 pub(crate) fn global(
     data: &SET_POSITION_TARGET_GLOBAL_INT_DATA,
     origin: &Origin,

@@ -6,7 +6,7 @@
 //! | silence | means | judged by |
 //! |---|---|---|
 //! | of the operator for whom the drone flies | tell, hold, land | the agent (SAF-9 of `docs/safety.md`). The core measures it by orders, of which [`OperatorOrder::Present`](autopilot::vehicle::OperatorOrder) says that a station is heard |
-//! | of set-points or sticks | they cannot be followed; whoever sent them may be there | [`following`](super::following), and the agent in flight |
+//! | of setpoints or sticks | they cannot be followed; whoever sent them may be there | [`following`](super::following), and the agent in flight |
 //! | of the partner of a mission's upload | an item is asked for again | [`Transfer`](crate::mission::Transfer) |
 //! | of a peer's address | its place is another's. Its stations are gone at once: nothing can be sent to them | the shell, which knows addresses |
 

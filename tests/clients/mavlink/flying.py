@@ -183,7 +183,7 @@ def to_1e7(north, east):
     return tuple(round(angle * 1e7) for angle in to_degrees(north, east))
 
 
-# Set-points: 1 in the mask ignores the value.
+# Setpoints: 1 in the mask ignores the value.
 POSITION_ONLY = 0b1101_1111_1000
 POSITION_AND_YAW = 0b1001_1111_1000
 VELOCITY_ONLY = 0b1101_1100_0111
@@ -192,7 +192,7 @@ ACCELERATION_ONLY = 0b1100_0011_1111
 
 
 def set_point(station, frame=1, mask=POSITION_ONLY, position=(NAN, NAN, NAN), velocity=(NAN, NAN, NAN), yaw=NAN, turn=NAN):
-    """What sends one local set-point; what its mask ignores is not a number."""
+    """What sends one local setpoint; what its mask ignores is not a number."""
     acceleration = (NAN, NAN, NAN) if mask != ACCELERATION_ONLY else (1, 0, 0)
 
     def send():
@@ -205,7 +205,7 @@ def set_point(station, frame=1, mask=POSITION_ONLY, position=(NAN, NAN, NAN), ve
 
 def go_off_board(station, send):
     """Starts the stream and enters the mode; the stream goes on until it is replaced."""
-    station.repeat["set-points"] = (0.05, send)
+    station.repeat["setpoints"] = (0.05, send)
     station.hear(0.3)
     expect_accepted(set_mode(station, OFFBOARD), "off-board")
     wait_mode(station, OFFBOARD, 1)

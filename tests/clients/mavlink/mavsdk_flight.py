@@ -138,7 +138,7 @@ def off_board_without_a_set_point_is_refused(drone):
         drone.offboard.start()
     except OffboardError:
         return
-    raise AssertionError("off-board started without a set-point")
+    raise AssertionError("off-board started without a setpoint")
 
 
 def main():

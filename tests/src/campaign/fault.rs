@@ -24,7 +24,7 @@ pub enum Danger {
     Lost,
     /// The ground station that has the controls has been silent for too long.
     Station,
-    /// The set-points that were followed have not come for too long.
+    /// The setpoints that were followed have not come for too long.
     Setpoints,
 }
 
@@ -39,7 +39,7 @@ impl fmt::Display for Danger {
             Self::Wind => "wind stronger than the airframe",
             Self::Lost => "place lost",
             Self::Station => "station gone",
-            Self::Setpoints => "set-points gone",
+            Self::Setpoints => "setpoints gone",
         })
     }
 }
@@ -100,7 +100,7 @@ pub enum Fault {
     },
     /// The drone was flown on although nobody may have been there any more who ordered it.
     FlownForNobody {
-        /// Whether set-points had stopped, or else the station was lost.
+        /// Whether setpoints had stopped, or else the station was lost.
         setpoints: bool,
     },
     /// The estimate's error exceeded its claimed uncertainty.
@@ -152,7 +152,7 @@ impl Fault {
             Self::EndlessLanding { .. } => "endless landing".to_owned(),
             Self::BlindSticks { .. } => "moved blindly".to_owned(),
             Self::OrderIgnored { order } => format!("order ignored: {order}"),
-            Self::FlownForNobody { setpoints: true } => "flown on without set-points".to_owned(),
+            Self::FlownForNobody { setpoints: true } => "flown on without setpoints".to_owned(),
             Self::FlownForNobody { setpoints: false } => "flown for a lost station".to_owned(),
             Self::Overconfident { vertical: true, .. } => "overconfident of the height".to_owned(),
             Self::Overconfident { vertical: false, .. } => "overconfident of the place".to_owned(),

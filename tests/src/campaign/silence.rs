@@ -16,7 +16,7 @@ use crate::sim::Moment;
 const STATION_HOLDS: Duration = Duration::from_secs(10);
 /// After such a silence the drone is landed.
 const STATION_LANDS: Duration = Duration::from_secs(20);
-/// Set-points of this age are not flown on.
+/// Setpoints of this age are not flown on.
 const SETPOINT_HOLDS: Duration = Duration::from_millis(500);
 /// At this age of the last one the drone is landed.
 const SETPOINT_LANDS: Duration = Duration::from_millis(10_500);
@@ -76,7 +76,7 @@ pub(super) struct Silence {
     holder: Option<Operator>,
     /// When the station was last heard.
     heard_at: Duration,
-    /// The last set-point, while they are followed or were the last that was.
+    /// The last setpoint, while they are followed or were the last that was.
     setpoint_at: Option<Duration>,
     /// Nobody may be there any more who ordered what is flown, until it is ordered anew.
     lost: bool,
@@ -111,7 +111,7 @@ impl Silence {
         self.silence(now) > STATION_LANDS
     }
 
-    /// Whether set-points have not come for so long.
+    /// Whether setpoints have not come for so long.
     pub(super) fn are_setpoints_gone(&self, now: Duration) -> bool {
         self.age(now) > SETPOINT_LANDS
     }

@@ -1,4 +1,4 @@
-//! A ground station of a flight: it flies by missions, set-points and sticks, orders nonsense, and disappears without a
+//! A ground station of a flight: it flies by missions, setpoints and sticks, orders nonsense, and disappears without a
 //! word.
 
 use std::fmt::Write as _;
@@ -167,7 +167,7 @@ fn acts(
     orders.extend(given.into_iter().filter(|(at, _)| *at < to));
 }
 
-/// Set-points for a while; returns their end.
+/// Setpoints for a while; returns their end.
 fn stream(
     random: &mut impl Rng,
     from: Duration,
@@ -217,7 +217,7 @@ fn setpoint(random: &mut impl Rng) -> Setpoint {
     }
 }
 
-/// A set-point of which one number is none, or infinite.
+/// A setpoint of which one number is none, or infinite.
 fn nonsense(random: &mut impl Rng) -> Setpoint {
     let number = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][random.random_range(0..3)];
     let sound = setpoint(random);

@@ -25,7 +25,7 @@ pub(super) struct Moving {
     sticks: Sticks,
     /// Share of other orders.
     others: f64,
-    /// A ground station's sticks are followed as set-points.
+    /// A ground station's sticks are followed as setpoints.
     by: Operator,
 }
 

@@ -319,7 +319,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "heard.saturating_sub(now)",
     ),
     mutant(
-        "station: set-points are always new",
+        "station: setpoints are always new",
         MANUAL,
         "let age = now.saturating_sub(at);",
         "let age = at.saturating_sub(now);",
@@ -343,20 +343,20 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "land_after_ms: ms(self.config.station.land_after * 1_000_000),",
     ),
     mutant(
-        "station: without set-points the drone holds for ever",
+        "station: without setpoints the drone holds for ever",
         AGENT,
         "landWithoutSetpoints(10500).",
         "landWithoutSetpoints(2000000000).",
     ),
     mutant(
-        "station: set-points of ten seconds ago are flown",
+        "station: setpoints of ten seconds ago are flown",
         AGENT,
         "holdWithoutSetpoints(500).",
         "holdWithoutSetpoints(10000).",
     ),
     layered(
         mutant(
-            "station: set-points lead out of the fence",
+            "station: setpoints lead out of the fence",
             STOPPING,
             "(velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",
             "(0.0 * velocity_m_s.dot(&wall.outward) - most_m_s).max(0.0)",

@@ -1,4 +1,4 @@
-//! Set-points that stop, and a ground station that falls silent.
+//! Setpoints that stop, and a ground station that falls silent.
 
 use super::*;
 
@@ -16,7 +16,7 @@ fn silent(silent_for_ms: i64, percepts: Percepts) -> Percepts {
     Percepts { station: StationPercepts { silent_for_ms, ..percepts.station }, ..percepts }
 }
 
-/// The hold after set-points of a drone that is at `pose`.
+/// The hold after setpoints of a drone that is at `pose`.
 fn held(pose: Pose) -> AgentCommand {
     AgentCommand::GoTo(Pose { x_m: REACHED.x_m, y_m: REACHED.y_m, ..pose })
 }

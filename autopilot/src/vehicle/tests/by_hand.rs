@@ -1,4 +1,4 @@
-//! What an operator does by hand: sticks, places to fly to, and the course of set-points.
+//! What an operator does by hand: sticks, places to fly to, and the course of setpoints.
 
 use ardrone_link::at::Ref;
 use kinematics::Sticks;
@@ -73,7 +73,7 @@ fn a_course_goes_on_from_tick_to_tick_and_anew_from_where_the_drone_has_hovered_
     bench.run(10 * TICK);
     let before = course(&bench);
     assert!(before.velocity_m_s.x > 0.3, "{before:?}");
-    // The same set-points, ordered anew.
+    // The same setpoints, ordered anew.
     bench.accepted(velocity(1.0, 0.0));
     assert_eq!(course(&bench), before);
     bench.vehicle.flight.target = None;

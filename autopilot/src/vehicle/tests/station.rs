@@ -1,4 +1,4 @@
-//! Set-points that are followed, and a ground station that falls silent.
+//! Setpoints that are followed, and a ground station that falls silent.
 
 use kinematics::Sticks;
 

@@ -15,7 +15,7 @@ DIRECTIONS = {"north": (0.6, 0.0), "east": (0.0, 0.6), "south": (-0.6, 0.0), "we
 def leg(station, velocity, seconds=2.0):
     """Flies so; everything that was heard meanwhile."""
     from_s = time.monotonic()
-    station.repeat["set-points"] = (0.05, set_point(station, mask=VELOCITY_ONLY, velocity=(*velocity, 0)))
+    station.repeat["setpoints"] = (0.05, set_point(station, mask=VELOCITY_ONLY, velocity=(*velocity, 0)))
     station.hear(seconds)
     return {kind: station.since(from_s, kind) for kind in ("ATTITUDE", "LOCAL_POSITION_NED", "GLOBAL_POSITION_INT", "VFR_HUD")}
 
@@ -87,7 +87,7 @@ def test_everything_agrees_in_all_four_directions(station):
         start = set_point(station, mask=POSITION_AND_YAW, position=(0, 0, -1.2), yaw=math.radians(yaw_deg))
         if yaw_deg == 0:
             go_off_board(station, start)
-        station.repeat["set-points"] = (0.05, start)
+        station.repeat["setpoints"] = (0.05, start)
         station.wait_until(
             lambda: abs(flying.turned_by(math.degrees(station.latest["ATTITUDE"].yaw), yaw_deg)) < 6, 10, f"yaw {yaw_deg}"
         )

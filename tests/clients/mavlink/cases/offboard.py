@@ -1,4 +1,4 @@
-"""Set-points: which are followed, and what happens when they stop."""
+"""Setpoints: which are followed, and what happens when they stop."""
 
 import math
 import time
@@ -15,7 +15,7 @@ def test_off_board_needs_a_fresh_stream(station):
     expect(set_mode(station, OFFBOARD), DENIED, TEMPORARILY_REJECTED, what="off-board without a stream")
     set_point(station, position=(0, 0, -1))()
     station.hear(1.2)
-    expect(set_mode(station, OFFBOARD), DENIED, TEMPORARILY_REJECTED, what="off-board 1.2 s after a set-point")
+    expect(set_mode(station, OFFBOARD), DENIED, TEMPORARILY_REJECTED, what="off-board 1.2 s after a setpoint")
     assert flying.mode(station) == HOLD
     flying.land(station)
 
@@ -34,10 +34,10 @@ def test_positions_and_velocities_are_followed_and_nonsense_is_not(station):
 
 def flies_to_places(station):
     for north, east, height in ((1.0, 0.0, 1.0), (0.0, 1.0, 1.3)):
-        station.repeat["set-points"] = (0.05, set_point(station, position=(north, east, -height)))
+        station.repeat["setpoints"] = (0.05, set_point(station, position=(north, east, -height)))
         flying.wait_arrival(station, north, east, height)
     turned = set_point(station, mask=POSITION_AND_YAW, position=(0.0, 1.0, -1.3), yaw=math.pi / 2)
-    station.repeat["set-points"] = (0.05, turned)
+    station.repeat["setpoints"] = (0.05, turned)
     station.wait_until(lambda: abs(math.degrees(station.latest["ATTITUDE"].yaw) - 90) < 8, 8, "the drone looks east")
     latitude, longitude = flying.to_1e7(0.0, 0.0)
 
@@ -47,13 +47,13 @@ def flies_to_places(station):
             NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
         )  # fmt: skip
 
-    station.repeat["set-points"] = (0.05, globally)
+    station.repeat["setpoints"] = (0.05, globally)
     flying.wait_arrival(station, 0.0, 0.0, 1.0)
 
 
 def moved_in(station, seconds, send):
-    """How far north, east and up it gets in this time under this set-point, after a second to reach its speed."""
-    station.repeat["set-points"] = (0.05, send)
+    """How far north, east and up it gets in this time under this setpoint, after a second to reach its speed."""
+    station.repeat["setpoints"] = (0.05, send)
     station.hear(1.2)
     before, from_s = place(station), time.monotonic()
     station.hear(seconds)
@@ -74,7 +74,7 @@ def flies_velocities(station):
             near(got, should_be, 0.15, f"speed {axis} in frame {frame} under {velocity}")
         moved_in(station, 0.3, still)
     before = flying.yaw_deg(station)
-    station.repeat["set-points"] = (0.05, set_point(station, 8, VELOCITY_AND_TURN, velocity=(0, 0, 0), turn=math.radians(30)))
+    station.repeat["setpoints"] = (0.05, set_point(station, 8, VELOCITY_AND_TURN, velocity=(0, 0, 0), turn=math.radians(30)))
     station.hear(2)
     turned = flying.turned_by(before, flying.yaw_deg(station))
     near(turned, 60, 25, "the turn to the right in 2 s")
@@ -82,7 +82,7 @@ def flies_velocities(station):
 
 def ignores_nonsense(station):
     """None of these moves the drone or is an error that ends the flight; the fence holds."""
-    station.repeat["set-points"] = (0.05, set_point(station, mask=VELOCITY_ONLY, velocity=(0, 0, 0)))
+    station.repeat["setpoints"] = (0.05, set_point(station, mask=VELOCITY_ONLY, velocity=(0, 0, 0)))
     station.hear(1.5)
     before, from_s = place(station), time.monotonic()
     for send in (
@@ -98,7 +98,7 @@ def ignores_nonsense(station):
             send()
             station.hear(0.05)
     assert math.dist(before, place(station)) < 0.35, f"{before} became {place(station)}"
-    assert station.texts(from_s), "no text says what is wrong with the set-points"
+    assert station.texts(from_s), "no text says what is wrong with the setpoints"
 
 
 def test_an_off_board_set_point_beyond_the_fence_is_not_followed_there(station):
@@ -114,7 +114,7 @@ def test_silent_set_points_hold_and_then_land(station):
     flying.take_off(station)
     go_off_board(station, set_point(station, frame=8, mask=VELOCITY_ONLY, velocity=(0.3, 0, 0)))
     station.hear(1)
-    station.repeat.pop("set-points")
+    station.repeat.pop("setpoints")
     silent_s = time.monotonic()
     held = flying.wait_mode(station, HOLD, 2.5, silent_s)
     near(held.heard_s - silent_s, 0.6, 0.4, "the time until it holds")
@@ -129,9 +129,9 @@ def test_a_stream_that_comes_back_does_not_steer_by_itself(station):
     flying.take_off(station)
     send = set_point(station, mask=VELOCITY_ONLY, velocity=(0.3, 0, 0))
     go_off_board(station, send)
-    station.repeat.pop("set-points")
+    station.repeat.pop("setpoints")
     flying.wait_mode(station, HOLD, 2.5)
-    station.repeat["set-points"] = (0.05, send)
+    station.repeat["setpoints"] = (0.05, send)
     station.hear(2.5)
     assert flying.mode(station) == HOLD
     expect(set_mode(station, OFFBOARD), 0, what="off-board again")

@@ -78,7 +78,7 @@ def test_set_points_of_the_second_station_are_not_followed(station):
     flying.take_off(station)
     with Two(station) as second:
         before = flying.place(station)
-        second.repeat["set-points"] = (0.05, flying.set_point(second, position=(2, 2, -2)))
+        second.repeat["setpoints"] = (0.05, flying.set_point(second, position=(2, 2, -2)))
         second.hear(2)
         assert flying.set_mode(second, flying.OFFBOARD) not in (0, 5)
         after = flying.place(second)
