@@ -59,7 +59,7 @@ impl fmt::Display for Outcome {
             Self::Completed => f.write_str("plan flown to its end"),
             Self::Contradicted { by } => write!(
                 f,
-                "all steps flown, but {by} contradicts the place: the targets may not have been reached"
+                "all steps flown, but {by} contradicts the position: the targets may not have been reached"
             ),
             Self::NoDrone => f.write_str(
                 "no drone answered: is this machine on the drone's Wi-Fi, and the address right?",

@@ -92,7 +92,7 @@ impl Neighbour {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NotHeard {
     /// A number is not finite, or negative.
-    #[error("another vehicle tells nonsense of its place")]
+    #[error("another vehicle tells nonsense of its position")]
     Nonsense,
     /// It cannot have got there. It is taken to be there, but as uncertain as the way that it cannot have flown.
     #[error("another vehicle is where it cannot have got to")]

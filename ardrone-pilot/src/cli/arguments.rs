@@ -23,7 +23,7 @@ Exit status:
    30  the pre-flight check refused to take off
    40  a failsafe landed the drone
    50  emergency: the drone cut its motors
-   60  all steps were flown, but a tag or the GPS contradicts the place: the targets may not have been reached
+   60  all steps were flown, but a tag or the GPS contradicts the position: the targets may not have been reached
   130  the operator landed it (Ctrl-C)
 
 Without --plan it is 0 if an operator quit with the drone down, whatever the outcomes of its flights.
@@ -212,7 +212,7 @@ pub(super) struct Fly {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
-    /// Hold the place by tags (black and white roundels) on the floor: find them and map them
+    /// Hold the position by tags (black and white roundels) on the floor: find them and map them
     #[arg(long)]
     pub(super) tags: bool,
     /// A tag whose place is known, right and forward of the start, and which way it points; it may be given

@@ -10,7 +10,7 @@ use super::section::{Milliseconds, Pair, Section as _, Setting, section};
 
 section! {
     struct Tags("tags") of TagConfig {
-        /// Whether tags (black and white roundels) on the floor hold the place: the drone is asked to look for them. docs/position.md
+        /// Whether tags (black and white roundels) on the floor hold the position: the drone is asked to look for them. docs/position.md
         detect: bool = [default false],
         /// Tags whose place was measured, [right, forward] or [right, forward, heading] from where the drone starts, in metres
         /// and degrees clockwise. Others are found and mapped.

@@ -76,7 +76,7 @@ impl fmt::Display for Danger {
             Self::Lost => "the position uncertainty is too large",
             Self::Wind => "the wind is stronger than the drone",
             Self::NoProgress => "what was ordered takes too long",
-            Self::Searching => "the place is doubtful, and a tag is looked for",
+            Self::Searching => "the position is doubtful, and a tag is looked for",
             Self::NoTag => "no tag was found",
             Self::TagLost => "the tag to land on is not seen any more",
             Self::SetpointsGone => "setpoints have not come for too long",

@@ -68,7 +68,7 @@ impl Review<'_> {
             Command::SetStayTime { time_s } if time_s > LONG_STAY_S => self.warn(
                 format!("the drone stays for {} s at each target", Figures(time_s)),
                 span,
-                "its place is known by navdata alone: the uncertainty grows the longer it hovers",
+                "its position is known by navdata alone: the uncertainty grows the longer it hovers",
             ),
             _ => {}
         }

@@ -21,7 +21,7 @@ pub enum FlightEvent {
     ConfigurationNotRead,
     /// The drone does not send its clock: time is taken from the arrival of packets.
     NoDroneClock,
-    /// The drone does not confirm that it looks for roundels: the place may drift.
+    /// The drone does not confirm that it looks for roundels: the position may drift.
     NoTagDetection,
     /// The drone does not confirm the bit rate of the video.
     NoVideoRate,
@@ -174,7 +174,7 @@ impl fmt::Display for FlightEvent {
                 f.write_str("the drone does not send its clock: taking the arrival of packets")
             }
             Self::NoTagDetection => f.write_str(
-                "the drone does not confirm that it looks for tags: the place may drift as without them",
+                "the drone does not confirm that it looks for tags: the position may drift as without them",
             ),
             Self::NoVideoRate => {
                 f.write_str("the drone does not confirm the bit rate of the video: it may have another one")
@@ -190,13 +190,13 @@ impl fmt::Display for FlightEvent {
             Self::LinkLost => f.write_str("link lost: ordering the landing blindly"),
             Self::Emergency => f.write_str("EMERGENCY: the drone has cut its motors"),
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
-            Self::SearchingTag => f.write_str("the place is doubtful: looking for a tag"),
+            Self::SearchingTag => f.write_str("the position is doubtful: looking for a tag"),
             Self::NoTagFound => f.write_str("no tag found"),
             Self::TagLost => {
                 f.write_str("the tag to land on is not seen any more: landing here")
             }
             Self::PlaceContradicted { by } => {
-                write!(f, "{by} contradicts the place: the drone may be elsewhere")
+                write!(f, "{by} contradicts the position: the drone may be elsewhere")
             }
             Self::EmergencyCleared => f.write_str("emergency cleared"),
             Self::Landed => f.write_str("landed"),

@@ -21,7 +21,7 @@ pub(crate) enum NoSetpoint {
     Nothing,
     #[error("one of its numbers is not finite")]
     NotFinite,
-    #[error("the drone's place is not known")]
+    #[error("the drone's position is not known")]
     NoPlace,
 }
 

@@ -8,7 +8,7 @@ const dangers = (() => {
   const SHOWN = 8000;
   // Navdata of this age are missing, in seconds; older ones than the second are a lost link.
   const [LATE_S, LOST_S] = [0.5, 2];
-  // Position uncertainty from which the place is doubtful, in metres.
+  // Position uncertainty from which the position is doubtful, in metres.
   const DOUBTFUL_M = 1;
   const MUTED = "ardrone-pilot muted";
 
