@@ -2,11 +2,15 @@
 
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use ardrone_link::selftest::{Contact, Heard, Refusal};
 use ardrone_link::{DroneAddress, WAKE_UP};
 use bytes::Bytes;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
 use tokio::io::{AsyncBufReadExt as _, AsyncReadExt as _, AsyncWriteExt as _, BufReader};
 use tokio::net::{TcpStream, UdpSocket};
 use tokio::runtime::{Builder, Runtime};
@@ -16,7 +20,7 @@ use tokio::time::{Instant, sleep_until, timeout};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelfTestError {
-    /// A socket could not be opened.
+    /// A socket could not be opened, or a signal not be awaited.
     #[error("network")]
     Socket(#[source] io::Error),
     /// The drone is not in a state in which it is examined.
@@ -24,6 +28,8 @@ pub enum SelfTestError {
     Refused(#[from] Refusal),
 }
 
+/// Exit status after a second signal.
+const CALLED_OFF: i32 = 130;
 /// How long a TCP port may take to be connected, and a line of FTP to come.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Longer than any datagram of the drone.
@@ -41,13 +47,18 @@ pub struct Sockets {
     at: UdpSocket,
     navdata: UdpSocket,
     control: Option<TcpStream>,
+    control_address: SocketAddr,
+    /// A command has been sent: before, nothing is connected.
+    asked: bool,
     video: Option<TcpStream>,
     video_address: SocketAddr,
     ftp_address: SocketAddr,
+    stopped: Arc<AtomicBool>,
 }
 
 impl Sockets {
-    /// Opens them for the drone at `ip`, with the ports of `address`. A TCP port that refuses is a finding, not an error.
+    /// Opens them for the drone at `ip`, with the ports of `address`. A TCP port that refuses is a finding, not an error. From now on
+    /// the first signal that would end the process calls the examination off.
     ///
     /// # Errors
     /// [`SelfTestError::Socket`] if the system has no sockets.
@@ -57,25 +68,34 @@ impl Sockets {
         video_port: u16,
         ftp_port: u16,
     ) -> Result<Self, SelfTestError> {
+        let stopped = Arc::new(AtomicBool::new(false));
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
+            // The second one ends the process at once.
+            flag::register_conditional_shutdown(signal, CALLED_OFF, Arc::clone(&stopped))
+                .and_then(|_| flag::register(signal, Arc::clone(&stopped)))
+                .map_err(SelfTestError::Socket)?;
+        }
         let runtime =
             Builder::new_current_thread().enable_all().build().map_err(SelfTestError::Socket)?;
         let at = |port| SocketAddr::new(ip, port);
         let opened = runtime.block_on(async {
-            let control = connect(at(address.control_port)).await.ok();
             let commands = datagrams(at(address.at_port)).await?;
             let navdata = datagrams(at(address.navdata_port)).await?;
-            Ok((commands, navdata, control, Instant::now()))
+            Ok((commands, navdata, Instant::now()))
         });
-        let (commands, navdata, control, start) = opened.map_err(SelfTestError::Socket)?;
+        let (commands, navdata, start) = opened.map_err(SelfTestError::Socket)?;
         Ok(Self {
             runtime,
             start,
             at: commands,
             navdata,
-            control,
+            control: None,
+            control_address: at(address.control_port),
+            asked: false,
             video: None,
             video_address: at(video_port),
             ftp_address: at(ftp_port),
+            stopped,
         })
     }
 }
@@ -86,6 +106,9 @@ impl Contact for Sockets {
     }
 
     fn send(&mut self, datagram: &[u8]) {
+        if !std::mem::replace(&mut self.asked, true) {
+            self.control = self.runtime.block_on(connect(self.control_address)).ok();
+        }
         // A lost one is repeated by who asks, as on the air.
         _ = self.runtime.block_on(self.at.send(datagram));
     }
@@ -123,6 +146,10 @@ impl Contact for Sockets {
     fn watch(&mut self) -> bool {
         self.video = self.runtime.block_on(connect(self.video_address)).ok();
         self.video.is_some()
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
     }
 
     fn version(&mut self) -> Option<Result<String, String>> {

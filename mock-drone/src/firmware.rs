@@ -600,6 +600,7 @@ impl Firmware {
     /// The control state for navdata.
     pub fn control_state(&self) -> ControlState {
         match self.phase {
+            Phase::Landed if self.lies.contains(Lies::CLAIMS_TO_HOVER) => ControlState::Hovering,
             Phase::Landed => ControlState::Landed,
             Phase::TakingOff { .. } => ControlState::TakingOff,
             Phase::Flying if self.motion.active == Motion::Hover => ControlState::Hovering,

@@ -63,6 +63,10 @@ bitflags! {
         const OTHER_CODEC = 1 << 26;
         /// The headers of the video name another size.
         const OTHER_SIZE = 1 << 27;
+        /// On the ground the control state is hovering.
+        const CLAIMS_TO_HOVER = 1 << 28;
+        /// It was left with the flying mode that hovers on roundels.
+        const FOLLOWS_ROUNDELS = 1 << 29;
     }
 }
 
@@ -123,6 +127,9 @@ impl Lies {
         }
         if self.contains(Self::MISSING_KEY) {
             text = text.replace("control:control_vz_max", "control:control_vz_limit");
+        }
+        if self.contains(Self::FOLLOWS_ROUNDELS) {
+            text = text.replace("control:flying_mode = 0", "control:flying_mode = 1");
         }
         if self.contains(Self::OTHER_VERSION) {
             text = text.replace("num_version_soft = 2.4.8", "num_version_soft = 1.11.5");

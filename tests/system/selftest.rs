@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use ardrone_link::at::{Command, Config, ControlMode, Datagram};
+use ardrone_link::at::{Command, Config, ControlMode, Datagram, Ref};
 use ardrone_link::selftest::{Assumption, Contact, Heard, Outcome, Refusal, Report, examine};
 use autopilot::vehicle::VehicleConfig;
+use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{DroneConfig, Lies, LinkFaults, Message, World, WorldConfig};
 
@@ -17,6 +18,12 @@ struct Simulated {
     now: Duration,
     /// Everything that was sent, for what must never be.
     sent: Vec<u8>,
+    /// Another client takes off then.
+    taken_off_at: Option<Duration>,
+    /// When it was last seen on the ground, and how much had been sent by then.
+    grounded: (Duration, usize),
+    /// The examination is called off then.
+    stopped_at: Option<Duration>,
 }
 
 /// How finely time passes.
@@ -45,6 +52,7 @@ impl Contact for Simulated {
                 None => {
                     self.now = (self.now + STEP).min(until);
                     self.world.advance(self.now);
+                    self.others();
                 }
             }
         }
@@ -54,14 +62,42 @@ impl Contact for Simulated {
         false
     }
 
+    fn is_stopped(&self) -> bool {
+        self.stopped_at.is_some_and(|at| self.now >= at)
+    }
+
     fn version(&mut self) -> Option<Result<String, String>> {
         None
     }
 }
 
+impl Simulated {
+    fn new(config: &WorldConfig) -> Self {
+        Self {
+            world: World::new(config),
+            now: Duration::ZERO,
+            sent: Vec::new(),
+            taken_off_at: None,
+            grounded: (Duration::ZERO, 0),
+            stopped_at: None,
+        }
+    }
+
+    /// What another client does meanwhile.
+    fn others(&mut self) {
+        if self.world.truth().phase == Phase::Landed {
+            self.grounded = (self.now, self.sent.len());
+        }
+        if self.taken_off_at.take_if(|at| *at <= self.now).is_some() {
+            let mut datagram = Datagram::new();
+            datagram.push(1_000_000, &Command::Ref(Ref::TakeOff)).unwrap();
+            self.world.send_at(self.now, datagram.as_bytes());
+        }
+    }
+}
+
 fn simulated(drone: DroneConfig, link: LinkFaults) -> Simulated {
-    let world = World::new(&WorldConfig { drone, link, ..WorldConfig::default() });
-    Simulated { world, now: Duration::ZERO, sent: Vec::new() }
+    Simulated::new(&WorldConfig { drone, link, ..WorldConfig::default() })
 }
 
 fn examined(drone: &mut Simulated) -> Result<Report, Refusal> {
@@ -116,14 +152,14 @@ fn the_simulated_drone_is_as_it_is_assumed_to_be_and_stays_on_the_ground() {
 }
 
 /// What each lie is found by, alone.
-const FOUND_BY: [(&str, &[&str]); 26] = [
+const FOUND_BY: [(&str, &[&str]); 28] = [
     ("no-acknowledgement", &["acknowledged", "found-again", "settings"]),
     ("stuck-acknowledgement", &["acknowledgement-cleared", "number-one", "old-numbers"]),
     ("fixed-ceiling", &["settings"]),
     ("tilt-in-degrees", &["settings"]),
     ("obeys-old-numbers", &["old-numbers"]),
     ("ignores-number-one", &["number-one"]),
-    ("no-watchdog", &["watchdog"]),
+    ("no-watchdog", &[]),
     ("stuck-watchdog", &["watchdog-cleared"]),
     ("patient-link", &["lost-link"]),
     ("deaf-after-loss", &["found-again"]),
@@ -143,6 +179,8 @@ const FOUND_BY: [(&str, &[&str]); 26] = [
     ("gravity-up", &["attitude", "gravity"]),
     ("tilted", &["attitude"]),
     ("moves-at-rest", &["at-rest"]),
+    ("claims-to-hover", &["at-rest"]),
+    ("follows-roundels", &["unset-keys"]),
 ];
 /// Those of the video, which is not simulated in simulated time.
 const OF_THE_VIDEO: [&str; 2] = ["other-codec", "other-size"];
@@ -159,9 +197,14 @@ fn each_lie_is_found() {
         let mut drone =
             simulated(DroneConfig { lies, ..DroneConfig::default() }, LinkFaults::default());
         let found = examined(&mut drone);
+        // With these it is not examined at all.
         if lies == Lies::CLAIMS_TO_FLY {
             assert_eq!(found, Err(Refusal::Flies));
-            assert!(drone.sent.is_empty(), "nothing is sent to a drone that flies");
+            assert!(drone.sent.is_empty(), "no command is sent to a drone that flies");
+            continue;
+        }
+        if lies == Lies::NO_WATCHDOG {
+            assert_eq!(found, Err(Refusal::Commanded));
             continue;
         }
         let report = found.unwrap();
@@ -171,7 +214,7 @@ fn each_lie_is_found() {
 }
 
 #[test]
-fn nothing_is_sent_to_a_drone_that_flies_is_silent_or_obeys_somebody_else() {
+fn no_command_is_sent_to_a_drone_that_flies_is_silent_or_obeys_somebody_else() {
     let flies = DroneConfig { flies_at_m: Some(1.0), ..DroneConfig::default() };
     let mut flying = simulated(flies, LinkFaults::default());
     assert_eq!(examined(&mut flying), Err(Refusal::Flies));
@@ -181,8 +224,7 @@ fn nothing_is_sent_to_a_drone_that_flies_is_silent_or_obeys_somebody_else() {
     assert_eq!(examined(&mut gone), Err(Refusal::Silent));
     assert!(gone.sent.is_empty());
     let scenario = mock_drone::scenario::Scenario::parse("s", "0 second-pilot 60").unwrap();
-    let world = World::new(&WorldConfig { scenario, ..WorldConfig::default() });
-    let mut commanded = Simulated { world, now: Duration::ZERO, sent: Vec::new() };
+    let mut commanded = Simulated::new(&WorldConfig { scenario, ..WorldConfig::default() });
     // Somebody has configured the drone, and flies it soon.
     let mut datagram = Datagram::new();
     let demo = Config::new("general:navdata_demo", "TRUE").unwrap();
@@ -191,6 +233,38 @@ fn nothing_is_sent_to_a_drone_that_flies_is_silent_or_obeys_somebody_else() {
     let refused = examined(&mut commanded);
     assert!(matches!(refused, Err(Refusal::Commanded | Refusal::Flies)), "{refused:?}");
     assert!(commanded.sent.is_empty());
+}
+
+/// Whatever is asked just then, not a command is sent after the first packet that says so.
+#[test]
+fn a_drone_that_another_client_lifts_meanwhile_is_left_alone() {
+    for seconds in 3..18 {
+        let mut drone = simulated(DroneConfig::default(), LinkFaults::default());
+        drone.taken_off_at = Some(Duration::from_secs(seconds));
+        let found = examined(&mut drone);
+        assert!(matches!(found, Err(Refusal::Flies | Refusal::Commanded)), "{seconds}: {found:?}");
+        let (at, sent) = drone.grounded;
+        let sent = String::from_utf8_lossy(&drone.sent[sent..]).into_owned();
+        // Until the next packet, which comes after 67 ms at most, we cannot know.
+        assert!(sent.lines().count() <= 8, "{seconds}, from {at:?}: {sent}");
+        assert!(drone.now < at + Duration::from_secs(6), "{seconds}: it ends soon");
+    }
+}
+
+#[test]
+fn an_examination_that_is_called_off_sets_back_what_it_has_set() {
+    let before = configuration(&mut World::new(&WorldConfig::default()));
+    let before = before.replace("navdata_demo = FALSE", "navdata_demo = TRUE");
+    // Later it is the last question, after which there is nothing to be set back.
+    for seconds in 1..15 {
+        let mut drone = simulated(DroneConfig::default(), LinkFaults::default());
+        drone.stopped_at = Some(Duration::from_secs(seconds));
+        assert_eq!(examined(&mut drone), Err(Refusal::Stopped), "{seconds}");
+        let after = configuration(&mut drone.world);
+        let after = after.replace("navdata_demo = FALSE", "navdata_demo = TRUE");
+        assert_eq!(after, before, "{seconds}");
+        assert!(drone.now < Duration::from_secs(seconds + 12), "{seconds}: {:?}", drone.now);
+    }
 }
 
 /// A link that loses is none of the firmware's lies.

@@ -31,6 +31,10 @@ pub trait Contact {
     fn next(&mut self, until: Duration) -> Option<Heard>;
     /// Asks for the video; false if this contact has no video port.
     fn watch(&mut self) -> bool;
+    /// Whether somebody wants the examination to end.
+    fn is_stopped(&self) -> bool {
+        false
+    }
     /// The content of `version.txt` on the drone's FTP server; `None` if this contact cannot ask.
     fn version(&mut self) -> Option<Result<String, String>>;
 }
@@ -56,9 +60,16 @@ pub(super) struct Window {
     pub(super) damaged: Vec<NavdataError>,
     pub(super) control: Vec<u8>,
     pub(super) video: Vec<Bytes>,
+    video_bytes: usize,
 }
 
 impl Window {
+    /// The watchdog bit of each packet.
+    fn watchdog(&self) -> Vec<bool> {
+        let packets = self.packets.iter().filter_map(Arrived::packet);
+        packets.map(|packet| packet.state.contains(DroneState::COMMUNICATION_WATCHDOG)).collect()
+    }
+
     /// Packets a second between the first and the last one.
     pub(super) fn rate_hz(&self) -> f64 {
         let (Some(first), Some(last)) = (self.packets.first(), self.packets.last()) else {
@@ -74,6 +85,11 @@ impl Window {
 const PERIOD: Duration = Duration::from_millis(30);
 /// Interval of requests that were not answered.
 const AGAIN: Duration = Duration::from_millis(120);
+/// A configuration has 4 kB; what is longer is none. Of pictures there are 2 MB in the time in which they are watched.
+const MOST_CONTROL_BYTES: usize = 64 << 10;
+const MOST_VIDEO_BYTES: usize = 8 << 20;
+/// A drone that is silent for so long has gone.
+const GONE: Duration = Duration::from_millis(1500);
 /// How long an acknowledgement may take.
 pub(super) const ANSWER: Duration = Duration::from_millis(500);
 
@@ -93,15 +109,31 @@ pub(super) struct Examiner<'a, C> {
     pub(super) number: u32,
     pub(super) state: Option<DroneState>,
     sent_at: Duration,
+    heard_at: Duration,
+    /// It flies: no command is sent any more.
+    flies: bool,
 }
 
 impl<'a, C: Contact> Examiner<'a, C> {
     pub(super) fn new(contact: &'a mut C) -> Self {
-        Self { contact, number: 0, state: None, sent_at: Duration::ZERO }
+        Self {
+            contact,
+            number: 0,
+            state: None,
+            sent_at: Duration::ZERO,
+            heard_at: Duration::ZERO,
+            flies: false,
+        }
     }
 
-    /// Listens to the drone, without sending it a command.
-    pub(super) fn find(&mut self, limit: Duration, listening: Duration) -> Result<(), Refusal> {
+    /// Finds the drone, and that nobody else commands it.
+    pub(super) fn find(&mut self, limit: Duration) -> Result<(), Refusal> {
+        /// How long a drone is only listened to, and how long after a single command: a client that sends 5 commands a second clears
+        /// the watchdog for 50 ms each time, so that 30 packets will not miss it.
+        const LISTENING: Duration = Duration::from_millis(500);
+        const ALONE: Duration = Duration::from_secs(2);
+        /// When the watchdog must have risen after our command.
+        const RISEN: Duration = Duration::from_millis(400);
         let end = self.contact.now() + limit;
         while self.state.is_none() && self.contact.now() < end {
             self.contact.wake();
@@ -110,32 +142,69 @@ impl<'a, C: Contact> Examiner<'a, C> {
         if self.state.is_none() {
             return Err(Refusal::Silent);
         }
-        // The watchdog of a drone that nobody commands may take a moment.
-        self.listen(listening, Meanwhile::Silent);
-        let state = self.state.unwrap_or_default();
-        if state.contains(DroneState::FLYING) {
-            return Err(Refusal::Flies);
+        let before = self.listen(LISTENING, Meanwhile::Silent);
+        self.refusal()?;
+        // Where somebody clears it, it is on and off.
+        let changes = before.watchdog();
+        if changes.contains(&true) && changes.contains(&false) {
+            return Err(Refusal::Commanded);
         }
-        let unheard = DroneState::COMMUNICATION_WATCHDOG
-            | DroneState::NAVDATA_BOOTSTRAP
-            | DroneState::COMMUNICATION_LOST;
-        if !state.intersects(unheard) {
+        // One of them may be lost.
+        for _ in 0..3 {
+            self.command(&Command::CommunicationWatchdog);
+            self.listen(PERIOD, Meanwhile::Silent);
+        }
+        let sent_at = self.contact.now();
+        let after = self.listen(ALONE, Meanwhile::Silent);
+        self.refusal()?;
+        let late = after.packets.iter().filter(|came| came.at > sent_at + RISEN);
+        let is_risen = |came: &Arrived| {
+            came.packet()
+                .is_some_and(|packet| packet.state.contains(DroneState::COMMUNICATION_WATCHDOG))
+        };
+        if late.clone().count() == 0 || !late.into_iter().all(is_risen) {
             return Err(Refusal::Commanded);
         }
         Ok(())
     }
 
+    /// Why nothing more may be asked.
+    pub(super) fn refusal(&self) -> Result<(), Refusal> {
+        if self.flies {
+            return Err(Refusal::Flies);
+        }
+        if self.contact.is_stopped() {
+            return Err(Refusal::Stopped);
+        }
+        if self.contact.now().saturating_sub(self.heard_at) > GONE {
+            return Err(Refusal::Gone);
+        }
+        Ok(())
+    }
+
+    /// Whether it was seen to fly.
+    pub(super) fn flies(&self) -> bool {
+        self.flies
+    }
+
     /// Sends a command with the next number.
     pub(super) fn command(&mut self, command: &Command) {
         self.number += 1;
-        self.command_with(self.number, command);
+        self.send(&[(self.number, command)]);
     }
 
     /// Sends a command with this number.
     pub(super) fn command_with(&mut self, number: u32, command: &Command) {
+        self.send(&[(number, command)]);
+    }
+
+    fn send(&mut self, commands: &[(u32, &Command)]) {
+        if self.flies {
+            return;
+        }
         let mut datagram = Datagram::new();
-        // One command is shorter than a datagram: a `Config` is made only of texts that fit.
-        if datagram.push(number, command).is_ok() {
+        // Two commands are shorter than a datagram: a `Config` is made only of texts that fit.
+        if commands.iter().all(|(number, command)| datagram.push(*number, command).is_ok()) {
             self.sent_at = self.contact.now();
             self.contact.send(datagram.as_bytes());
         }
@@ -179,8 +248,12 @@ impl<'a, C: Contact> Examiner<'a, C> {
         is_so: impl Fn(DroneState) -> bool,
     ) -> Option<Duration> {
         let start = self.contact.now();
-        while self.contact.now() < start + limit {
-            self.command(command);
+        while self.contact.now() < start + limit && !self.flies {
+            // As in a flight, where a setting is never alone in its datagram.
+            self.number += 2;
+            let numbered =
+                [(self.number - 1, &Command::CommunicationWatchdog), (self.number, command)];
+            self.send(&numbered);
             if self.wait(AGAIN, Meanwhile::Present, &is_so).is_some() {
                 return Some(self.contact.now().saturating_sub(start));
             }
@@ -212,15 +285,17 @@ impl<'a, C: Contact> Examiner<'a, C> {
     fn next(&mut self, until: Duration, meanwhile: Meanwhile) -> Option<Heard> {
         loop {
             let now = self.contact.now();
-            if now >= until {
+            // Nothing is to be learnt of a drone that flies.
+            if now >= until || self.flies {
                 return None;
             }
             let due = self.sent_at + PERIOD;
-            if meanwhile == Meanwhile::Present && now >= due {
+            let is_present = meanwhile == Meanwhile::Present;
+            if is_present && now >= due {
                 self.command(&Command::CommunicationWatchdog);
                 continue;
             }
-            let wait = if meanwhile == Meanwhile::Present { until.min(due) } else { until };
+            let wait = if is_present { until.min(due) } else { until };
             if let Some(heard) = self.contact.next(wait) {
                 return Some(heard);
             }
@@ -233,12 +308,20 @@ impl<'a, C: Contact> Examiner<'a, C> {
             Heard::Navdata(packet) => match Packet::decode(&packet).map(|decoded| decoded.state) {
                 Ok(state) => {
                     self.state = Some(state);
+                    self.heard_at = at;
+                    self.flies |= state.contains(DroneState::FLYING);
                     window.packets.push(Arrived { at, packet });
                 }
                 Err(error) => window.damaged.push(error),
             },
-            Heard::Control(bytes) => window.control.extend_from_slice(&bytes),
-            Heard::Video(bytes) => window.video.push(bytes),
+            Heard::Control(bytes) if window.control.len() < MOST_CONTROL_BYTES => {
+                window.control.extend_from_slice(&bytes);
+            }
+            Heard::Video(bytes) if window.video_bytes < MOST_VIDEO_BYTES => {
+                window.video_bytes += bytes.len();
+                window.video.push(bytes);
+            }
+            Heard::Control(_) | Heard::Video(_) => {}
         }
     }
 }

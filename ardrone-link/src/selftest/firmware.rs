@@ -11,9 +11,18 @@ use crate::navdata::DroneState;
 /// How long the configuration may take.
 const DUMP: Duration = Duration::from_secs(3);
 const DEMO_KEY: &str = "general:navdata_demo";
+/// As long as a session takes one.
+const LONGEST_DUMP: usize = 32 << 10;
 const VERSION_KEY: &str = "general:num_version_soft";
 /// Whose packets, documents and captures we know.
 const KNOWN_VERSION: &str = "2.4.";
+/// What no flight sets, and every flight relies on.
+const UNSET: [(&str, &str); 4] = [
+    ("control:flying_mode", "0"),
+    ("control:control_level", "0"),
+    ("control:manual_trim", "FALSE"),
+    ("general:com_watchdog", "2"),
+];
 /// A setting that may be made at any time: its value is that of the flight's settings, or the default.
 const HARMLESS_KEY: &str = "control:altitude_max";
 const HARMLESS_MM: [&str; 2] = ["2000", "2100"];
@@ -55,13 +64,16 @@ fn read(drone: &mut Examiner<'_, impl Contact>) -> Result<Configuration, String>
     let mut text = Vec::new();
     let end = drone.contact.now() + DUMP;
     let mut due = drone.contact.now();
-    while drone.contact.now() < end && text.last() != Some(&0) {
+    while drone.contact.now() < end && text.last() != Some(&0) && !drone.flies() {
         if text.is_empty() && drone.contact.now() >= due {
             drone.command(&Command::Control(ControlMode::SendConfiguration));
             due += AGAIN;
         }
         let came = drone.listen(LOOK, Meanwhile::Present).control;
         text.extend_from_slice(&came);
+        if text.len() > LONGEST_DUMP {
+            return Err(format!("more than {LONGEST_DUMP} bytes came, without a NUL byte"));
+        }
     }
     drone.clear();
     match text.last() {
@@ -79,7 +91,8 @@ pub(super) fn configuration(
         Ok(configuration) => configuration,
         Err(what) => {
             report.add(Assumption::Configuration, Outcome::Differs(what.clone()));
-            report.add(Assumption::Version, Outcome::NotAsked(what));
+            report.add(Assumption::Version, Outcome::NotAsked(what.clone()));
+            report.add(Assumption::UnsetKeys, Outcome::NotAsked(what));
             return None;
         }
     };
@@ -99,6 +112,10 @@ pub(super) fn configuration(
         None => {}
     }
     report.judge_all(Assumption::Version, wrong, told);
+    let unset = UNSET.into_iter().filter(|(key, value)| !configuration.has(key, value));
+    let told = |key| configuration.get(key).unwrap_or("missing");
+    let unset = unset.map(|(key, _)| format!("{key} is {}", told(key)));
+    report.judge_all(Assumption::UnsetKeys, unset.collect(), format!("{} keys", UNSET.len()));
     Some(configuration)
 }
 
@@ -155,30 +172,52 @@ pub(super) fn settings(
     report.judge_all(Assumption::Settings, wrong, format!("{} keys", wanted.len()));
 }
 
-/// Sets everything back to what it was, but for the rate of navdata: each client sets that first.
-pub(super) fn set_back(drone: &mut Examiner<'_, impl Contact>, before: &Configuration) {
-    /// Sections in which something may have changed; others count by themselves.
-    const SECTIONS: [&str; 5] = ["general:navdata", "control:", "detect:", "pic:", "video:"];
-    /// It decides which limits count, so it comes first.
-    const OUTDOOR: &str = "control:outdoor";
-    let Ok(after) = read(drone) else { return };
-    let first = before.iter().filter(|(key, _)| *key == OUTDOOR);
-    for (key, value) in first.chain(before.iter().filter(|(key, _)| *key != OUTDOOR)) {
-        let is_ours = SECTIONS.iter().any(|section| key.starts_with(section));
-        if is_ours && key != DEMO_KEY && after.get(key) != Some(value) {
-            drone.set_text(key, value);
-        }
+/// Sets what was set back to what it was, but for the rate of navdata: each client sets that first.
+pub(super) fn set_back(
+    drone: &mut Examiner<'_, impl Contact>,
+    settings: &[Config],
+    before: &Configuration,
+    report: &mut Findings<'_>,
+) {
+    /// Each has a value for indoors and outdoors, of which the drone changes one when the one in use is set.
+    const LIMITS: [&str; 3] = ["euler_angle_max", "control_vz_max", "control_yaw"];
+    let ours = settings.iter().map(|setting| setting.key().to_owned());
+    let limits = ["indoor", "outdoor"]
+        .into_iter()
+        .flat_map(|place| LIMITS.map(|limit| format!("control:{place}_{limit}")));
+    let keys = ours.chain(limits).filter(|key| *key != DEMO_KEY).chain([HARMLESS_KEY.to_owned()]);
+    let known = keys.filter_map(|key| Config::new(&*key, before.get(&key)?).ok());
+    let known: Vec<Config> = known.collect();
+    for config in &known {
+        drone.set(config);
     }
+    let wrong = match read(drone) {
+        Ok(after) => known
+            .iter()
+            .filter(|config| !after.has(config.key(), config.value()))
+            .map(|config| {
+                let told = after.get(config.key()).unwrap_or("missing");
+                format!("{}: it was {}, and is {told}", config.key(), config.value())
+            })
+            .collect(),
+        Err(what) => vec![format!("not known: {what}")],
+    };
+    report.judge_all(Assumption::SetBack, wrong, format!("{} keys", known.len()));
 }
 
-pub(super) fn sequence_numbers(drone: &mut Examiner<'_, impl Contact>, report: &mut Findings<'_>) {
+pub(super) fn sequence_numbers(
+    drone: &mut Examiner<'_, impl Contact>,
+    before: Option<&Configuration>,
+    report: &mut Findings<'_>,
+) {
     let is_acknowledged = |state: DroneState| state.contains(DroneState::COMMAND_ACKNOWLEDGE);
     let [first, second] = HARMLESS_MM.map(|value| Config::new(HARMLESS_KEY, value));
     let (Ok(first), Ok(second)) = (first, second) else { return };
-    if drone.set(&first).is_none() {
+    // Without a configuration it could not be set back.
+    if before.is_none() || drone.set(&first).is_none() {
         for assumption in [Assumption::OldNumbers, Assumption::NumberOne] {
-            report
-                .add(assumption, Outcome::NotAsked(format!("{HARMLESS_KEY} is not acknowledged")));
+            let why = format!("{HARMLESS_KEY} cannot be set, or not set back");
+            report.add(assumption, Outcome::NotAsked(why));
         }
         return;
     }
@@ -259,7 +298,7 @@ pub(super) fn lost_link(drone: &mut Examiner<'_, impl Contact>, report: &mut Fin
     let start = drone.contact.now();
     let is_lost = |state: DroneState| state.contains(DroneState::COMMUNICATION_LOST);
     let mut lost = None;
-    while lost.is_none() && drone.contact.now() < start + Duration::from_secs(4) {
+    while lost.is_none() && !drone.flies() && drone.contact.now() < start + Duration::from_secs(4) {
         let before = drone.contact.now();
         let window = drone.listen(NAVDATA_END, Meanwhile::Silent);
         lost = match window
@@ -281,7 +320,8 @@ pub(super) fn lost_link(drone: &mut Examiner<'_, impl Contact>, report: &mut Fin
     report.judge(Assumption::LostLink, lost.is_some_and(|lost| expected.contains(&lost)), seen);
     let start = drone.contact.now();
     let mut again = None;
-    while again.is_none() && drone.contact.now() < start + Duration::from_secs(2) {
+    while again.is_none() && !drone.flies() && drone.contact.now() < start + Duration::from_secs(2)
+    {
         drone.contact.wake();
         again = drone.wait(Duration::from_millis(120), Meanwhile::Silent, |_| true);
     }

@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::contact::{Arrived, Contact, Examiner, Meanwhile, Window};
 use super::report::{Assumption, Findings, Outcome};
 use crate::at::Config;
-use crate::navdata::{Demo, NavdataOption, Packet, PhysicalMeasures};
+use crate::configuration::Configuration;
+use crate::navdata::{ControlState, Demo, NavdataOption, Packet, PhysicalMeasures};
 
 /// How long packets are counted.
 const COUNTED: Duration = Duration::from_secs(2);
@@ -94,12 +95,14 @@ fn wrong_options(window: &Window, tags: impl Iterator<Item = u16>) -> Vec<String
 pub(super) fn requested(
     drone: &mut Examiner<'_, impl Contact>,
     settings: &[Config],
+    before: Option<&Configuration>,
     report: &mut Findings<'_>,
 ) {
     let setting = settings.iter().find(|setting| setting.key() == "general:navdata_options");
     let mask = setting.and_then(|setting| setting.value().parse::<u32>().ok());
-    let (Some(setting), Some(mask)) = (setting, mask) else {
-        let why = "no options are asked for".to_owned();
+    // Without a configuration they could not be set back.
+    let (Some(setting), Some(mask), Some(_)) = (setting, mask, before) else {
+        let why = "no options are asked for, or they could not be set back".to_owned();
         return report.add(Assumption::RequestedOptions, Outcome::NotAsked(why));
     };
     // With the other settings already, unless these were not asked.
@@ -162,11 +165,13 @@ fn clock(window: &Window, report: &mut Findings<'_>) {
 }
 
 fn at_rest(demo: &Demo, report: &mut Findings<'_>) {
-    let Demo { velocity_forward_m_s, velocity_right_m_s, altitude_m, .. } = *demo;
+    let Demo { velocity_forward_m_s, velocity_right_m_s, altitude_m, control_state, .. } = *demo;
     let speed_m_s = velocity_forward_m_s.hypot(velocity_right_m_s);
-    let seen = format!("{speed_m_s:.2} m/s, {altitude_m:.2} m");
+    let seen = format!("{}, {speed_m_s:.2} m/s, {altitude_m:.2} m", control_state.name());
     // What is no number is not below anything.
-    report.judge(Assumption::AtRest, speed_m_s < 0.2 && altitude_m.abs() < 0.5, seen);
+    let is_at_rest =
+        control_state == ControlState::Landed && speed_m_s < 0.2 && altitude_m.abs() < 0.5;
+    report.judge(Assumption::AtRest, is_at_rest, seen);
 }
 
 fn charge(demo: &Demo, packet: &Packet<'_>, report: &mut Findings<'_>) {

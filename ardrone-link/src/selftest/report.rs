@@ -50,6 +50,8 @@ assumptions! {
     Configuration = "configuration", "the configuration comes over the control port within 3 s, and ends with a NUL byte";
     /// `general:num_version_soft`.
     Version = "version", "the firmware is version 2.4.x, and its configuration and its FTP server say the same";
+    /// Keys that are only read.
+    UnsetKeys = "unset-keys", "what no flight sets is as it left the factory: flying_mode 0, control_level 0, manual_trim FALSE, com_watchdog 2";
     /// Each setting of a flight.
     Settings = "settings", "each setting of a flight is acknowledged, and its value is read back";
     /// `general:navdata_options`.
@@ -65,19 +67,21 @@ assumptions! {
     /// Option 3 on the ground.
     Gravity = "gravity", "at rest the accelerometers read 9.8 m/s² within 1, upwards";
     /// Attitude by gyroscopes and by accelerometers.
-    Attitude = "attitude", "at rest pitch and roll agree with the accelerometers within 5°, with the same signs";
+    Attitude = "attitude", "at rest pitch and roll agree with the accelerometers within 5°";
     /// Demo option on the ground.
-    AtRest = "at-rest", "at rest the velocity is below 0.2 m/s, the altitude below 0.5 m, and all are numbers";
+    AtRest = "at-rest", "at rest the control state is landed, the velocity is below 0.2 m/s and the altitude below 0.5 m";
     /// Repeated and older numbers of commands.
     OldNumbers = "old-numbers", "a command whose number is not greater than the last one is ignored";
     /// The number that restarts the count.
     NumberOne = "number-one", "a command with number 1 is obeyed, and the count restarts";
     /// State bit 30.
-    Watchdog = "watchdog", "after 50 ms without a command bit 30 of the state rises";
+    Watchdog = "watchdog", "without a command bit 30 of the state rises, within 0.4 s";
     /// COMWDG.
     WatchdogCleared = "watchdog-cleared", "COMWDG clears bit 30, within 0.5 s";
     /// TCP 5555.
     Video = "video", "the video is H.264 of 640 x 360, 10 to 35 pictures a second, with PaVE headers whose sizes are right";
+    /// The configuration afterwards.
+    SetBack = "set-back", "what was set for this examination is set back to what it was";
     /// Silence of two seconds.
     LostLink = "lost-link", "1.5 to 3 s after the last command the link counts as lost: bit 13 rises, or navdata end";
     /// After the loss.
@@ -168,12 +172,19 @@ pub enum Refusal {
     Silent,
     /// State bit 0 is set.
     #[error(
-        "the drone says that it flies: only a drone on the ground is examined; nothing was sent to it"
+        "the drone says that it flies: only a drone on the ground is examined, and no command is sent to it any more"
     )]
     Flies,
-    /// Its watchdog hears commands.
+    /// Its watchdog hears commands that are not ours.
     #[error(
-        "another program commands the drone: its watchdog bit is off, without a command of ours; stop that program first"
+        "another program commands the drone, or its watchdog does not work: its bit is off without a command of ours; \
+         stop that program first"
     )]
     Commanded,
+    /// [`Contact::is_stopped`](super::Contact::is_stopped).
+    #[error("called off; what was set is set back, unless a line above says otherwise")]
+    Stopped,
+    /// No navdata come any more.
+    #[error("the drone has gone: no navdata for 1.5 s; its settings may not be what they were")]
+    Gone,
 }

@@ -24,6 +24,7 @@ Exit status:
    40  a failsafe landed the drone
    50  emergency: the drone cut its motors
    60  all steps were flown, but a tag or the GPS contradicts the position: the targets may not have been reached
+   70  selftest: the drone is not as it is assumed to be
   130  the operator landed it (Ctrl-C)
 
 Without --plan it is 0 if an operator quit with the drone down, whatever the outcomes of its flights.

@@ -112,7 +112,8 @@ impl CommandError {
             Self::Elsewhere(error) => error.exit_status(),
             Self::MavlinkArguments(error) => error.exit_status(),
             Self::Flight(FlightError::Address { .. })
-            | Self::SelfTest(SelfTestError::Refused(Refusal::Silent)) => 10,
+            | Self::SelfTest(SelfTestError::Refused(Refusal::Silent | Refusal::Gone)) => 10,
+            Self::SelfTest(SelfTestError::Refused(Refusal::Stopped)) => 130,
             Self::SelfTest(SelfTestError::Refused(_)) => 30,
             Self::Mock(_)
             | Self::Flight(_)

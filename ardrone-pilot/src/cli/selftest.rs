@@ -40,7 +40,11 @@ pub(super) fn run(arguments: &ExamineDrone) -> Result<u8, CommandError> {
     let report = examine(&mut drone, &wanted, &mut |check| {
         if arguments.json { print_object(&object(check)) } else { terminal::print(line(check)) }
     });
-    let report = report.map_err(SelfTestError::Refused)?;
+    let report = report.map_err(SelfTestError::Refused).inspect_err(|error| {
+        if arguments.json {
+            print_object(&json!({ "type": "end", "error": error.to_string() }));
+        }
+    })?;
     let status = if report.is_as_assumed() { 0 } else { DIFFERS };
     let count = |wanted: &str| {
         report.checks.iter().filter(|check| word(&check.outcome).1 == wanted).count()
