@@ -8,8 +8,6 @@ cd "$(dirname "$0")/.."
 CARGO_TARGET_DIR=$(realpath --no-symlinks "${CARGO_TARGET_DIR:-target}")
 export CARGO_TARGET_DIR
 programs=(ardrone-pilot mock-drone asl2c)
-# Those that have a page for each of their commands, too.
-with_commands=(mock-drone asl2c)
 release=$CARGO_TARGET_DIR/release
 made=$release/packaging
 
@@ -23,8 +21,8 @@ for program in "${programs[@]}"; do
     "$release/$program" completions zsh >"$made/zsh/_$program"
     "$release/$program" completions fish >"$made/fish/$program.fish"
 done
-for program in "${with_commands[@]}"; do
-    # As its own page names them: `PROGRAM-COMMAND(1)`, with hyphens escaped.
+for program in "${programs[@]}"; do
+    # The pages of its commands, as its own page names them: `PROGRAM-COMMAND(1)`, with hyphens escaped.
     for command in $(tr -d '\\' <"$made/man/$program.1" | sed -n "s/^$program-\(.*\)(1)$/\1/p"); do
         "$release/$program" man "$command" >"$made/man/$program-$command.1"
     done

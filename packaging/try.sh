@@ -60,7 +60,7 @@ grep '^real-time priority' "$lists/flight"
 inside su pilot -c 'cd && ls flights && ardrone-pilot report flights/*.mcap && ardrone-pilot replay flights/*.mcap' | tail -3
 
 say "pages"
-for page in ardrone-pilot mock-drone asl2c asl2c-verify mock-drone-man; do
+for page in ardrone-pilot mock-drone asl2c ardrone-pilot-selftest asl2c-verify mock-drone-man; do
     inside env MANWIDTH=100 man "$page" >"$lists/page" 2>"$lists/complaints"
     test -s "$lists/page"
     test ! -s "$lists/complaints"

@@ -273,6 +273,10 @@ fn shells_and_manuals_are_served() {
     let manual = pilot(&["man"]);
     let manual = String::from_utf8_lossy(&manual.stdout);
     assert!(manual.contains(".TH ardrone-pilot") && manual.contains("Exit status"), "{manual}");
+    let of_command = pilot(&["man", "selftest"]);
+    let of_command = String::from_utf8_lossy(&of_command.stdout);
+    assert!(of_command.contains(".TH ardrone-pilot-selftest 1"), "{of_command}");
+    assert_eq!(pilot(&["man", "fly"]).status.code(), Some(2));
 }
 
 #[test]

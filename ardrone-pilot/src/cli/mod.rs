@@ -67,6 +67,8 @@ enum CommandError {
     Members(#[from] MembersError),
     #[error(transparent)]
     Elsewhere(#[from] ElsewhereError),
+    #[error("there is no command `{0}`")]
+    NoCommand(String),
     #[error("--config, --tags and --tag are for plans: a fleet says them in its file")]
     OfPlans,
     #[error("{path}")]
@@ -108,7 +110,7 @@ impl CommandError {
             | Self::Log { .. }
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
             | Self::Replay(_) => 20,
-            Self::Video(ExportError::Format { .. }) | Self::OfPlans => 2,
+            Self::Video(ExportError::Format { .. }) | Self::OfPlans | Self::NoCommand(_) => 2,
             Self::Elsewhere(error) => error.exit_status(),
             Self::MavlinkArguments(error) => error.exit_status(),
             Self::Flight(FlightError::Address { .. })
@@ -157,7 +159,7 @@ pub fn main() -> ExitCode {
         (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Video { log, output }), _) => write_video(log, output.as_deref()),
         (Some(Command::Completions { shell }), _) => Ok(print_completions(*shell)),
-        (Some(Command::Man), _) => Ok(print_manual()),
+        (Some(Command::Man { command }), _) => print_manual(command.as_deref()),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
         (None, flight) => fly::run(flight, &warnings),
     };
@@ -190,12 +192,21 @@ fn print_completions(shell: Shell) -> u8 {
     0
 }
 
-fn print_manual() -> u8 {
+fn print_manual(command: Option<&str>) -> Result<u8, CommandError> {
+    let mut program = Arguments::command().disable_help_subcommand(true);
+    // What names the commands' pages.
+    program.build();
+    let documented = match command {
+        Some(name) => program.find_subcommand(name).cloned(),
+        None => Some(program),
+    };
+    let documented = documented
+        .ok_or_else(|| CommandError::NoCommand(command.unwrap_or_default().to_owned()))?;
     let mut page = Vec::new();
     // Writing to memory cannot fail.
-    _ = clap_mangen::Man::new(Arguments::command()).render(&mut page);
+    _ = clap_mangen::Man::new(documented).render(&mut page);
     terminal::print_own(&page);
-    0
+    Ok(0)
 }
 
 /// Writes the report of a log: a page for each flight.
