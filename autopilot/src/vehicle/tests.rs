@@ -240,7 +240,7 @@ fn a_position_by_gps_stays_until_it_is_old_or_lost() {
 #[test]
 fn the_batterys_voltage_is_asked_for_and_told_of_the_newest_packet() {
     let mut bench = Bench::new();
-    let settings = drone_settings(&VehicleConfig::default()).unwrap();
+    let settings = VehicleConfig::default().drone_settings().unwrap();
     let asked = |config: &&Config| format!("{config:?}").contains(NAVDATA_OPTIONS_KEY);
     let asked = format!("{:?}", settings.iter().find(asked));
     assert!(asked.contains("65543"), "demo, time, raw_measures and vision_detect: {asked}");
