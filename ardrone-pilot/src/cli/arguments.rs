@@ -315,18 +315,6 @@ impl FlyFleet {
     }
 }
 
-impl Arguments {
-    /// Whether standard output has one JSON object per line, the first of which says of what kind they are.
-    pub(super) fn speaks_json(&self) -> bool {
-        match &self.command {
-            None => self.fly.interfaces.json,
-            Some(Command::Fleet(fleet)) => fleet.interfaces.json,
-            Some(Command::Selftest(examined)) => examined.json,
-            Some(_) => false,
-        }
-    }
-}
-
 impl Fly {
     pub(super) fn z_origin(&self) -> plan::ZOrigin {
         self.z_origin.into()

@@ -15,8 +15,7 @@ use super::arguments::FlyFleet;
 use super::crew::Crew;
 use super::elsewhere::{self, Configured, Elsewhere};
 use super::fly::{
-    SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, print_object, record_to,
-    since_epoch,
+    SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, record_to, since_epoch,
 };
 use super::keys::{self, Keys};
 use super::program::{self, AtEnd, Lines};
@@ -147,7 +146,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
             News::Network(told) => {
                 let at = elsewhere.time();
                 if arguments.interfaces.json {
-                    print_object(&told.json(at));
+                    terminal::print_object(&told.json(at));
                 }
                 if let Some(browser) = &browser {
                     browser.tell_all(at, &told);
@@ -171,7 +170,7 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
                     browser.end(end.finished.vehicle, &end.json());
                 }
                 if let (true, Ok(end)) = (arguments.interfaces.json, &end) {
-                    print_object(&end.json());
+                    terminal::print_object(&end.json());
                 }
                 ended.push((place, end));
             }
@@ -196,7 +195,7 @@ fn print_end(arguments: &FlyFleet, status: u8, totals: Option<&Totals>) {
         if let Some(totals) = totals {
             end["network"] = totals.json();
         }
-        print_object(&end);
+        terminal::print_object(&end);
     } else if let Some(totals) = totals {
         terminal::print(totals);
     }
@@ -506,7 +505,7 @@ impl Shown {
             self.steps.clone_from(steps);
         }
         if as_json {
-            print_object(&json::message(message, &self.steps));
+            terminal::print_object(&json::message(message, &self.steps));
         }
         if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
             self.truths.push(TrueWaypoint::new(waypoint, &mock.truth(), &self.start));

@@ -9,7 +9,6 @@ use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
 use autopilot::vehicle::{Start, SurveyedTag, Telemetry, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
-use serde_json::Value;
 use time::UtcDateTime;
 
 use super::arguments::{Fly, WhichDrone};
@@ -130,7 +129,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         browser.end(config.name, &end);
     }
     if arguments.interfaces.json {
-        print_object(&end);
+        terminal::print_object(&end);
         return Ok(status);
     }
     terminal::print(Summary {
@@ -270,7 +269,7 @@ impl Outputs<'_> {
             self.steps.clone_from(steps);
         }
         if self.arguments.interfaces.json {
-            print_object(&json::message(message, &self.steps));
+            terminal::print_object(&json::message(message, &self.steps));
         }
         if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
             self.truths.push(TrueWaypoint::new(waypoint, &mock.truth(), &self.start));
@@ -283,11 +282,6 @@ impl Outputs<'_> {
             watch.warn(&problem.to_string());
         }
     }
-}
-
-/// Prints one JSON line.
-pub(super) fn print_object(object: &Value) {
-    terminal::print(format_args!("{}\n", json::text(object)));
 }
 
 /// Display for people.

@@ -37,7 +37,6 @@ use self::screen::Warnings;
 use crate::browser::BrowserError;
 use crate::fleet::FleetError;
 use crate::flight::FlightError;
-use crate::json;
 use crate::mavlink::MavlinkError;
 use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
@@ -145,9 +144,6 @@ pub fn main() -> ExitCode {
         .without_time()
         .log_internal_errors(false)
         .init();
-    if arguments.speaks_json() {
-        fly::print_object(&json::hello());
-    }
     let done = match (&arguments.command, &arguments.fly) {
         (Some(Command::Check(arguments)), _) if check_fleet::is_fleet(&arguments.plan) => {
             check_fleet::run(arguments)

@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 
 use super::crew::Crew;
 use super::terminal;
-use crate::json;
 use crate::ordered;
 use crate::typed::{self, Typed};
 
@@ -115,7 +114,7 @@ impl Caller {
                 if let Err(reason) = answer {
                     object["reason"] = reason.into();
                 }
-                terminal::print(format_args!("{}\n", json::text(&object)));
+                terminal::print_object(&object);
             }
             (Self::Typed(_), Ok(())) => {}
             (Self::Typed(line), Err(reason)) => {

@@ -7,7 +7,7 @@ use mock_drone::server::{MockDrone, Ports};
 use serde_json::json;
 
 use super::arguments::ExamineDrone;
-use super::fly::{drone_address, mock_address, print_object};
+use super::fly::{drone_address, mock_address};
 use super::{CommandError, read_settings, terminal};
 use crate::flight::{FlightError, resolve};
 use crate::selftest::{SelfTestError, Sockets};
@@ -38,11 +38,15 @@ pub(super) fn run(arguments: &ExamineDrone) -> Result<u8, CommandError> {
     ));
     let mut drone = Sockets::open(resolve(&address.host)?, &address, video_port, ftp_port)?;
     let report = examine(&mut drone, &wanted, &mut |check| {
-        if arguments.json { print_object(&object(check)) } else { terminal::print(line(check)) }
+        if arguments.json {
+            terminal::print_object(&object(check));
+        } else {
+            terminal::print(line(check));
+        }
     });
     let report = report.map_err(SelfTestError::Refused).inspect_err(|error| {
         if arguments.json {
-            print_object(&json!({ "type": "end", "error": error.to_string() }));
+            terminal::print_object(&json!({ "type": "end", "error": error.to_string() }));
         }
     })?;
     let status = if report.is_as_assumed() { 0 } else { DIFFERS };
@@ -51,7 +55,7 @@ pub(super) fn run(arguments: &ExamineDrone) -> Result<u8, CommandError> {
     };
     let [hold, differ, unasked] = ["holds", "differs", "not-asked"].map(count);
     if arguments.json {
-        print_object(&json!({
+        terminal::print_object(&json!({
             "type": "end", "hold": hold, "differ": differ, "not_asked": unasked, "exit_status": status,
         }));
     } else {

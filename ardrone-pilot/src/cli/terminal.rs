@@ -4,8 +4,12 @@
 use std::error::Error;
 use std::fmt::{self, Display};
 use std::io::{Write as _, stderr, stdout};
+use std::sync::Once;
 
 use diagnostic::{printable, printable_lines};
+use serde_json::Value;
+
+use crate::json;
 
 /// Returns to the start of the line and clears it.
 const CLEAR: &str = "\r\x1b[K";
@@ -20,6 +24,14 @@ pub(super) fn print_own(result: &[u8]) {
     let mut stdout = stdout().lock();
     // If the pipe was closed nobody reads the rest; the flight goes on.
     _ = stdout.write_all(result).and_then(|()| stdout.flush());
+}
+
+/// Prints one JSON line; before the first one, the line that says of what kind they are. Whoever prints first waits for who reads:
+/// nobody does before the flight has begun.
+pub(super) fn print_object(object: &Value) {
+    static HELLO: Once = Once::new();
+    HELLO.call_once(|| print(format_args!("{}\n", json::text(&json::hello()))));
+    print(format_args!("{}\n", json::text(object)));
 }
 
 /// Prints a message for people on standard error, line by line.
