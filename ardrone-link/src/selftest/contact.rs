@@ -261,7 +261,7 @@ impl<'a, C: Contact> Examiner<'a, C> {
         None
     }
 
-    /// Clears the acknowledgement of an earlier setting; false if it stays.
+    /// Clears the acknowledgement of an earlier setting; how long it took, or `None` if it stays.
     pub(super) fn clear(&mut self) -> Option<Duration> {
         let clear = Command::Control(ControlMode::ClearAcknowledge);
         self.ask(ANSWER, &clear, |state| !state.contains(DroneState::COMMAND_ACKNOWLEDGE))

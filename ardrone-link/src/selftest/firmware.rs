@@ -11,7 +11,7 @@ use crate::navdata::DroneState;
 /// How long the configuration may take.
 const DUMP: Duration = Duration::from_secs(3);
 const DEMO_KEY: &str = "general:navdata_demo";
-/// As long as a session takes one.
+/// Eight times as long as one is.
 const LONGEST_DUMP: usize = 32 << 10;
 const VERSION_KEY: &str = "general:num_version_soft";
 /// Whose packets, documents and captures we know.
@@ -23,7 +23,7 @@ const UNSET: [(&str, &str); 4] = [
     ("control:manual_trim", "FALSE"),
     ("general:com_watchdog", "2"),
 ];
-/// A setting that may be made at any time: its value is that of the flight's settings, or the default.
+/// A setting that may be made at any time on the ground; it is set back at the end.
 const HARMLESS_KEY: &str = "control:altitude_max";
 const HARMLESS_MM: [&str; 2] = ["2000", "2100"];
 /// How often a command is repeated that must be ignored: one may be lost.
@@ -272,21 +272,21 @@ pub(super) fn sequence_numbers(
 }
 
 pub(super) fn watchdog(drone: &mut Examiner<'_, impl Contact>, report: &mut Findings<'_>) {
-    let barks = |state: DroneState| state.contains(DroneState::COMMUNICATION_WATCHDOG);
+    let is_raised = |state: DroneState| state.contains(DroneState::COMMUNICATION_WATCHDOG);
     let clear = Command::CommunicationWatchdog;
-    drone.ask(ANSWER, &clear, |state| !barks(state));
+    drone.ask(ANSWER, &clear, |state| !is_raised(state));
     let silence = Duration::from_millis(400);
     // What is under way has to arrive first.
     drone.listen(Duration::from_millis(20), Meanwhile::Silent);
-    let barked = drone.wait(silence, Meanwhile::Silent, barks);
+    let raised = drone.wait(silence, Meanwhile::Silent, is_raised);
     let seen =
-        barked.map_or("bit 30 stays 0 after 400 ms without a command".to_owned(), milliseconds);
-    report.judge(Assumption::Watchdog, barked.is_some(), seen);
-    if barked.is_none() {
+        raised.map_or("bit 30 stays 0 after 400 ms without a command".to_owned(), milliseconds);
+    report.judge(Assumption::Watchdog, raised.is_some(), seen);
+    if raised.is_none() {
         let why = "bit 30 did not rise".to_owned();
         return report.add(Assumption::WatchdogCleared, Outcome::NotAsked(why));
     }
-    let cleared = drone.ask(ANSWER, &clear, |state| !barks(state));
+    let cleared = drone.ask(ANSWER, &clear, |state| !is_raised(state));
     let seen = cleared.map_or("bit 30 stays 1 after COMWDG".to_owned(), milliseconds);
     report.judge(Assumption::WatchdogCleared, cleared.is_some(), seen);
 }

@@ -24,7 +24,7 @@ use report::Findings;
 const FIRST_ANSWER: Duration = Duration::from_secs(3);
 
 /// Examines the drone behind `contact`. `settings` are those that a pilot would make before a flight, in their order; `tell` hears of
-/// each check as soon as it is made. It takes about 25 s.
+/// each check as soon as it is made. It takes about 20 s.
 ///
 /// # Errors
 /// [`Refusal`] if the drone is silent, flies, or obeys somebody else: then nothing was set. [`Refusal::Stopped`] if the examination was
