@@ -9,8 +9,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use system_tests::airframes::Airframes;
 
 use crate::{
-    campaign, case, compare, cross_checks, fleets, fly, healthy, mavlink, mutants, rules, sensors,
-    soak, streams, tags, target, verify,
+    campaign, case, compare, cross_checks, figures, fleets, fly, healthy, mavlink, mutants, rules,
+    sensors, soak, streams, tags, target, verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -201,6 +201,8 @@ enum Command {
     Target,
     /// Generate the code of the MAVLink dialect from its XML; it is checked in
     Mavlink(mavlink::Arguments),
+    /// Measure what is promised, and compare it with what was recorded last (`docs/figures.json`); fails if anything was lost
+    Figures(figures::Arguments),
     /// Check the safety case (`docs/safety-case.md`), and write its drawing
     Case(case::Arguments),
 }
@@ -270,6 +272,7 @@ fn run(command: Command, start: std::time::Instant) -> Result<(String, bool), Bo
         Command::Verify { counted, .. } => verify::run(counted.as_deref())?,
         Command::Target => target::run()?,
         Command::Mavlink(arguments) => mavlink::run(&arguments)?,
+        Command::Figures(arguments) => figures::run(&arguments)?,
         Command::Case(arguments) => case::run(&arguments)?,
     })
 }

@@ -8,7 +8,7 @@ use crate::job::{FlyError, Job, fly};
 use crate::parallel;
 use crate::plot;
 use crate::score::Scorer;
-use crate::table::{self, Flown};
+use crate::table::{self, Flown, Row};
 
 /// Returns the table, and the simulated time of all flights.
 pub(crate) fn run(
@@ -16,13 +16,7 @@ pub(crate) fn run(
     csv_path: Option<&Path>,
     plots: Option<&Path>,
 ) -> Result<(String, Duration), FlyError> {
-    let mut jobs = Vec::new();
-    for (case, what) in CASES.iter().enumerate() {
-        for plan in 0..what.plans.len() {
-            jobs.extend((1..=seeds).map(|seed| Job { case, plan, seed }));
-        }
-    }
-    let flown = parallel::map(&jobs, score)?;
+    let flown = flown(seeds)?;
     let rows = table::rows(&flown);
     if let Some(folder) = plots {
         plot::write_all(folder, &rows)?;
@@ -33,6 +27,21 @@ pub(crate) fn run(
     }
     let duration = flown.iter().map(|flight| flight.score.duration).sum();
     Ok((table::table(&rows), duration))
+}
+
+/// Results of each case.
+pub(crate) fn rows(seeds: u64) -> Result<Vec<Row>, FlyError> {
+    Ok(table::rows(&flown(seeds)?))
+}
+
+fn flown(seeds: u64) -> Result<Vec<Flown>, FlyError> {
+    let mut jobs = Vec::new();
+    for (case, what) in CASES.iter().enumerate() {
+        for plan in 0..what.plans.len() {
+            jobs.extend((1..=seeds).map(|seed| Job { case, plan, seed }));
+        }
+    }
+    parallel::map(&jobs, score)
 }
 
 fn score(job: Job) -> Result<Flown, FlyError> {

@@ -8,6 +8,7 @@ mod command_line;
 mod compare;
 mod cross_checks;
 mod edit;
+mod figures;
 mod fleets;
 mod fly;
 mod healthy;

@@ -236,21 +236,117 @@ struct Flown {
     seen: f64,
 }
 
+/// Results of the flights of one case on one day.
+pub(crate) struct Row {
+    pub(crate) name: String,
+    hard: bool,
+    pub(crate) flights: usize,
+    /// Flights that did not end as they should.
+    pub(crate) lost: usize,
+    pub(crate) lands_on_tag: bool,
+    time_s: f64,
+    pub(crate) truth_rms_m: f64,
+    truth_worst_m: f64,
+    pub(crate) estimate_rms_m: f64,
+    estimate_worst_m: f64,
+    inside: f64,
+    heading_deg: f64,
+    pub(crate) landing_m: f64,
+    seen: f64,
+    is_good: bool,
+}
+
+impl Row {
+    /// What kind of day it was.
+    pub(crate) fn day(&self) -> &'static str {
+        if self.hard { "hard" } else { "nominal" }
+    }
+
+    /// Of flights of one case on one day, of which there is at least one.
+    fn new(name: &str, flights: &[Flown]) -> Self {
+        let (case, hard) = (&CASES[flights[0].case], flights[0].hard);
+        let sum = |of: fn(&Flown) -> f64| flights.iter().map(of).sum::<f64>();
+        let worst = |of: fn(&Flown) -> f64| flights.iter().map(of).fold(0.0, f64::max);
+        let moments = sum(|f| f.moments).max(1.0);
+        let mut headings: Vec<f64> = flights.iter().map(|flight| flight.heading_deg).collect();
+        headings.sort_by(f64::total_cmp);
+        let mut row = Self {
+            name: name.to_owned(),
+            hard,
+            flights: flights.len(),
+            lost: flights.iter().filter(|flight| !flight.as_meant).count(),
+            lands_on_tag: case.lands_on_tag,
+            time_s: sum(|f| f.time_s) / flights.len() as f64,
+            truth_rms_m: (sum(|f| f.truth_squares) / moments).sqrt(),
+            truth_worst_m: worst(|f| f.truth_worst_m),
+            estimate_rms_m: (sum(|f| f.estimate_squares) / moments).sqrt(),
+            estimate_worst_m: worst(|f| f.estimate_worst_m),
+            inside: sum(|f| f.inside) / moments,
+            heading_deg: headings[(headings.len() * 95).div_ceil(100).saturating_sub(1)],
+            landing_m: worst(|f| f.landing_m),
+            seen: sum(|f| f.seen) / moments,
+            is_good: true,
+        };
+        let limits = case.limits.map(|limits| limits[usize::from(hard)]);
+        row.is_good = limits.is_none_or(|limits| {
+            row.truth_rms_m <= limits.truth_rms_m
+                && row.truth_worst_m <= limits.truth_worst_m
+                && row.estimate_rms_m <= limits.estimate_rms_m
+                && row.heading_deg <= limits.heading_deg
+                && row.landing_m <= limits.landing_m
+                && (limits.estimate_rms_m >= NEVER || row.inside >= 0.9)
+                && row.lost == 0
+        });
+        row
+    }
+
+    fn line(&self) -> String {
+        format!(
+            "{:<22}{:<8}{:>8.0}{:>20}{:>20}{:>9.3}{:>9.2}{:>9.3}{:>8.2}{:>7}",
+            self.name,
+            self.day(),
+            self.time_s,
+            format!("{:.3} / {:.2}", self.truth_rms_m, self.truth_worst_m),
+            format!("{:.3} / {:.2}", self.estimate_rms_m, self.estimate_worst_m),
+            self.inside,
+            self.heading_deg,
+            self.landing_m,
+            self.seen,
+            self.lost,
+        )
+    }
+}
+
+/// Flies the cases that are wanted with seeds from 1.
+fn flown(seeds: u64, wanted: impl Fn(&Case) -> bool) -> Result<Vec<Flown>, String> {
+    let mut jobs = Vec::new();
+    for (case, _) in CASES.iter().enumerate().filter(|(_, case)| wanted(case)) {
+        for hard in [false, true] {
+            jobs.extend((1..=seeds).map(|seed| Job { case, hard, seed }));
+        }
+    }
+    parallel::map(&jobs, fly).map_err(|error| error.to_string())
+}
+
+/// The flights of each case and day.
+fn by_day(flown: &[Flown]) -> impl Iterator<Item = &[Flown]> {
+    flown.chunk_by(|one, next| (one.case, one.hard) == (next.case, next.hard))
+}
+
+/// Results of the cases for which something must hold.
+///
+/// # Errors
+/// What went wrong with the measurement.
+pub(crate) fn judged(seeds: u64) -> Result<Vec<Row>, String> {
+    let flown = flown(seeds, |case| case.limits.is_some())?;
+    Ok(by_day(&flown).map(|flights| Row::new(CASES[flights[0].case].name, flights)).collect())
+}
+
 /// Flies all cases whose name contains `only` with seeds from 1.
 ///
 /// # Errors
 /// What went wrong with the measurement.
 pub(crate) fn run(seeds: u64, only: Option<&str>, each: bool) -> Result<(String, bool), String> {
-    let mut jobs = Vec::new();
-    for (case, what) in CASES.iter().enumerate() {
-        if only.is_some_and(|only| !what.name.contains(only)) {
-            continue;
-        }
-        for hard in [false, true] {
-            jobs.extend((1..=seeds).map(|seed| Job { case, hard, seed }));
-        }
-    }
-    let flown = parallel::map(&jobs, fly).map_err(|error| error.to_string())?;
     let mut text = format!(
         "{:<22}{:<8}{:>8}{:>20}{:>20}{:>9}{:>9}{:>9}{:>8}{:>7}\n",
         "what",
@@ -265,73 +361,17 @@ pub(crate) fn run(seeds: u64, only: Option<&str>, each: bool) -> Result<(String,
         "lost"
     );
     let mut good = true;
-    for (case, what) in CASES.iter().enumerate() {
-        for hard in [false, true] {
-            let flights: Vec<&Flown> =
-                flown.iter().filter(|f| f.case == case && f.hard == hard).collect();
-            if flights.is_empty() {
-                continue;
-            }
-            let limits = what.limits.map(|limits| limits[usize::from(hard)]);
-            good &= row(&mut text, what.name, hard, &flights, limits.as_ref());
-            if each {
-                for flight in &flights {
-                    row(
-                        &mut text,
-                        &format!("  seed {} {}", flight.seed, flight.outcome),
-                        hard,
-                        &[flight],
-                        None,
-                    );
-                }
-            }
+    let flown = flown(seeds, |case| only.is_none_or(|only| case.name.contains(only)))?;
+    for flights in by_day(&flown) {
+        let row = Row::new(CASES[flights[0].case].name, flights);
+        good &= row.is_good;
+        _ = writeln!(text, "{}{}", row.line(), if row.is_good { "" } else { "  BAD" });
+        for flight in flights.iter().filter(|_| each) {
+            let name = format!("  seed {} {}", flight.seed, flight.outcome);
+            _ = writeln!(text, "{}", Row::new(&name, std::slice::from_ref(flight)).line());
         }
     }
     Ok((text, good))
-}
-
-fn row(
-    text: &mut String,
-    name: &str,
-    hard: bool,
-    flights: &[&Flown],
-    limits: Option<&Limits>,
-) -> bool {
-    let sum = |of: fn(&Flown) -> f64| flights.iter().map(|flight| of(flight)).sum::<f64>();
-    let worst = |of: fn(&Flown) -> f64| flights.iter().map(|flight| of(flight)).fold(0.0, f64::max);
-    let moments = sum(|f| f.moments).max(1.0);
-    let truth_rms_m = (sum(|f| f.truth_squares) / moments).sqrt();
-    let estimate_rms_m = (sum(|f| f.estimate_squares) / moments).sqrt();
-    let mut headings: Vec<f64> = flights.iter().map(|flight| flight.heading_deg).collect();
-    headings.sort_by(f64::total_cmp);
-    let heading_deg = headings[(headings.len() * 95).div_ceil(100).saturating_sub(1)];
-    let inside = sum(|f| f.inside) / moments;
-    let lost = flights.iter().filter(|flight| !flight.as_meant).count();
-    let bad = limits.is_some_and(|limits| {
-        truth_rms_m > limits.truth_rms_m
-            || worst(|f| f.truth_worst_m) > limits.truth_worst_m
-            || estimate_rms_m > limits.estimate_rms_m
-            || heading_deg > limits.heading_deg
-            || worst(|f| f.landing_m) > limits.landing_m
-            || limits.estimate_rms_m < NEVER && inside < 0.9
-            || lost > 0
-    });
-    _ = writeln!(
-        text,
-        "{:<22}{:<8}{:>8.0}{:>20}{:>20}{:>9.3}{:>9.2}{:>9.3}{:>8.2}{:>7}{}",
-        name,
-        if hard { "hard" } else { "nominal" },
-        sum(|f| f.time_s) / flights.len() as f64,
-        format!("{truth_rms_m:.3} / {:.2}", worst(|f| f.truth_worst_m)),
-        format!("{estimate_rms_m:.3} / {:.2}", worst(|f| f.estimate_worst_m)),
-        inside,
-        heading_deg,
-        worst(|f| f.landing_m),
-        sum(|f| f.seen) / moments,
-        lost,
-        if bad { "  BAD" } else { "" },
-    );
-    !bad
 }
 
 fn simulation(job: Job) -> Result<Simulation, String> {

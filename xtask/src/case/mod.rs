@@ -28,7 +28,7 @@ pub(crate) struct CaseError {
 const PAGE: &str = "docs/safety-case.md";
 const DRAWING: &str = "docs/safety-case.svg";
 
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 

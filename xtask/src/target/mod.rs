@@ -81,6 +81,12 @@ pub(crate) fn run() -> Result<(String, bool), MeasureError> {
     Ok((lines, good))
 }
 
+/// Runs an agent on both machines, and derives its bounds.
+pub(crate) fn measure_agent(agent: &Agent) -> Result<OnTarget, MeasureError> {
+    let exercise = translator::exercise(&agent.configuration, &agent.text)?;
+    Ok(on_target(&exercise, &exercise, STEPS)?)
+}
+
 fn measure(name: &'static str, path: &Path) -> Result<Measured, MeasureError> {
     let agent = Agent::read(path)?;
     let exercise = translator::exercise(&agent.configuration, &agent.text)?;

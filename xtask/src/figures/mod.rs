@@ -1,0 +1,179 @@
+//! Measures what is promised of the system, and compares it with what was recorded last: `docs/figures.json`.
+
+mod cadence;
+mod counted;
+mod measure;
+mod page;
+mod record;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use self::record::{Figures, History, Record};
+
+/// What to measure.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Keep what was measured as the latest record, and write the page anew
+    #[arg(long)]
+    record: bool,
+    /// Measure only these parts
+    #[arg(long, value_name = "PARTS", value_enum, value_delimiter = ',')]
+    only: Vec<Part>,
+    /// Count the tests in this output of `cargo test --workspace`, instead of running them
+    #[arg(long, value_name = "LOG")]
+    tests: Option<PathBuf>,
+    /// Count the proofs in this output of `cargo xtask verify`, instead of proving
+    #[arg(long, value_name = "LOG")]
+    proofs: Option<PathBuf>,
+    /// Write what was measured to this file, as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Do the work whose instructions are counted; run under valgrind
+    #[arg(long, hide = true)]
+    work: bool,
+}
+
+/// What is measured together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Part {
+    /// Plans in simulated time
+    Flights,
+    /// Positions held over tags
+    Tags,
+    /// Instructions of a tick, of decoding and of translating
+    Instructions,
+    /// How regular commands are, in real time
+    Cadence,
+    /// The shipped agent on a Cortex-M4
+    Agent,
+    /// What is proved of it
+    Proofs,
+    /// Crates and lines
+    Code,
+    /// The first build, from nothing: takes minutes
+    Build,
+    /// How many tests there are
+    Tests,
+}
+
+/// Which way is a loss.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Loss {
+    /// More is worse.
+    More,
+    /// Less is worse.
+    Less,
+    /// It depends on the machine, or on what was built: it is shown, and not judged.
+    NotJudged,
+}
+
+/// What a figure measures.
+#[derive(Debug)]
+struct Kind {
+    part: Part,
+    name: &'static str,
+    unit: &'static str,
+    loss: Loss,
+    /// A difference up to this share of the recorded value plus `noise` is none.
+    share: f64,
+    noise: f64,
+}
+
+const fn kind(part: Part, name: &'static str, unit: &'static str, loss: Loss) -> Kind {
+    // Simulated flights are the same on each machine, but for the last digits of its mathematical functions.
+    Kind { part, name, unit, loss, share: 0.02, noise: 0.0 }
+}
+
+const METRES: f64 = 0.003;
+
+#[rustfmt::skip]
+static KINDS: &[Kind] = &[
+    kind(Part::Flights, "plans completed", "%", Loss::Less),
+    kind(Part::Flights, "time between the stays", "s", Loss::More),
+    Kind { noise: METRES, ..kind(Part::Flights, "overshoot, mean", "m", Loss::More) },
+    Kind { noise: METRES, ..kind(Part::Flights, "distance in the late part of stays, rms", "m", Loss::More) },
+    kind(Part::Tags, "flights over tags that end as meant", "%", Loss::Less),
+    Kind { noise: METRES, ..kind(Part::Tags, "distance from the target over tags, rms", "m", Loss::More) },
+    Kind { noise: METRES, ..kind(Part::Tags, "error of the estimate over tags, rms", "m", Loss::More) },
+    Kind { noise: METRES, ..kind(Part::Tags, "distance of a landing from its tag, worst", "m", Loss::More) },
+    // Another version of the compiler or of the C library makes other instructions.
+    Kind { share: 0.05, ..kind(Part::Instructions, "instructions", "", Loss::More) },
+    // Beside other programs. A tick is every 30 ms.
+    Kind { share: 2.0, noise: 3.0, ..kind(Part::Cadence, "lateness of ticks, 99 of 100", "ms", Loss::More) },
+    Kind { noise: 3.0, ..kind(Part::Cadence, "ticks skipped", "", Loss::More) },
+    Kind { share: 0.05, ..kind(Part::Agent, "code on a Cortex-M4", "bytes", Loss::More) },
+    kind(Part::Agent, "state", "bytes", Loss::More),
+    Kind { share: 0.05, ..kind(Part::Agent, "stack of a step", "bytes", Loss::More) },
+    Kind { share: 0.05, ..kind(Part::Agent, "longest path of a step", "instructions", Loss::More) },
+    kind(Part::Agent, "lines of C", "", Loss::More),
+    Kind { share: 0.0, ..kind(Part::Proofs, "proved on the C", "", Loss::Less) },
+    Kind { share: 0.0, ..kind(Part::Proofs, "hold of the model", "", Loss::Less) },
+    kind(Part::Code, "crates of ardrone-pilot", "", Loss::More),
+    kind(Part::Code, "lines of Rust", "", Loss::NotJudged),
+    kind(Part::Code, "lines of tests", "", Loss::NotJudged),
+    kind(Part::Code, "lines of pages", "", Loss::NotJudged),
+    Kind { share: 0.10, ..kind(Part::Build, "first build, times the work of a reference", "", Loss::More) },
+    kind(Part::Build, "first build, by the clock", "s", Loss::NotJudged),
+    Kind { share: 0.0, ..kind(Part::Tests, "tests passed", "", Loss::Less) },
+];
+
+/// Why nothing was measured.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum FiguresError {
+    #[error("{}: {source}", path.display())]
+    File { path: PathBuf, source: std::io::Error },
+    #[error("{}: {source}", path.display())]
+    Json { path: PathBuf, source: serde_json::Error },
+    #[error("{program} cannot be run: {source}")]
+    Run { program: String, source: std::io::Error },
+    #[error("{program} failed: {said}")]
+    Failed { program: String, said: String },
+}
+
+const HISTORY: &str = "docs/figures.json";
+const PAGE: &str = "docs/figures.md";
+const DRAWING: &str = "docs/figures.svg";
+
+/// Measures, compares, and records if that is wanted. Returns what to print, and whether nothing was lost.
+pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::error::Error>> {
+    if arguments.work {
+        counted::work()?;
+        return Ok((String::new(), true));
+    }
+    let root = crate::case::root();
+    let parts: &[Part] =
+        if arguments.only.is_empty() { Part::value_variants() } else { &arguments.only };
+    let mut figures = Figures::default();
+    for part in parts {
+        measure::measure(*part, arguments, &mut figures)?;
+    }
+    let mut record = Record::new(figures);
+    if let Some(path) = &arguments.json {
+        write(path, &record.json())?;
+    }
+    let path = root.join(HISTORY);
+    let mut history = History::read(&path)?;
+    let (mut text, lost) = match history.last() {
+        Some(last) => record.against(last, parts),
+        None => (String::new(), false),
+    };
+    if arguments.record {
+        if let Some(last) = history.last() {
+            record.keep_of(last, parts);
+        }
+        history.push(record);
+        write(&path, &history.json())?;
+        write(&root.join(PAGE), &page::page(&history))?;
+        write(&root.join(DRAWING), &page::drawing(&history))?;
+        _ = writeln!(text, "recorded in {HISTORY}");
+    }
+    Ok((text, arguments.record || !lost))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), FiguresError> {
+    std::fs::write(path, text)
+        .map_err(|source| FiguresError::File { path: path.to_owned(), source })
+}
