@@ -32,7 +32,7 @@ pub(super) fn page(history: &History) -> String {
 
 /// Few digits, for people.
 fn short(value: f64) -> String {
-    let digits = if value.abs() < 10.0 { 3 } else { 0 };
+    let digits = if value.abs() < 10.0 { 3 } else { 1 };
     format!("{value:.digits$}")
 }
 
