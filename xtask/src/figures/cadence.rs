@@ -1,17 +1,16 @@
 //! How regular the ticks of a flight over UDP are, in real time.
 
-use std::path::Path;
-
 use serde_json::Value;
 
-use super::measure::output;
+use super::measure::{Programs, output};
 use super::record::Figures;
 
 /// Flies the simulated drone, as the README's first command does.
-pub(super) fn measure(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
-    let own = std::env::current_exe()?;
-    let pilot = own.parent().unwrap_or(Path::new(".")).join("ardrone-pilot");
-    let mut flight = std::process::Command::new(pilot);
+pub(super) fn measure(
+    programs: &Programs,
+    figures: &mut Figures,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let mut flight = std::process::Command::new(programs.named("ardrone-pilot"));
     flight.args(["--plan", "plans/square.txt", "--mock", "--json", "--no-log"]);
     let said = output(flight.current_dir(crate::case::root()))?;
     let (mut late_ms, mut skipped) = (Vec::new(), 0.0);

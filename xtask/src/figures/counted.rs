@@ -3,19 +3,19 @@
 use std::hint::black_box;
 use std::process::Command;
 
-use super::measure::{SHIPPED, output};
+use super::measure::{Programs, SHIPPED, output};
 use super::record::Figures;
 use crate::job::{Job, fly};
 
 /// What is counted: a function with all that it calls, for each call. What runs the agent's C is not among them, because
 /// that counts what is executed of it where `AGENT_COVERAGE` is set.
-#[rustfmt::skip]
-const COUNTED: [(&str, &str); 6] = [
-    ("decode a packet", "ardrone_link::session::Session::handle"),
+const COUNTED: [(&str, &str); 7] = [
+    ("decode a packet", "ardrone_link::navdata::summary::Navdata::decode"),
     ("estimate from a packet", "estimator::Estimator::update"),
-    ("look where the drone is, in a tick", "autopilot::vehicle::tick::<impl autopilot::vehicle::Vehicle>::state"),
-    ("control, in a tick", "autopilot::vehicle::control::<impl autopilot::vehicle::Vehicle>::carry_out"),
-    ("write commands, in a tick", "ardrone_link::session::tick::<impl ardrone_link::session::Session>::tick"),
+    ("predict for a tick", "estimator::Estimator::predicted"),
+    ("check the safety of a tick", "autopilot::safety::SafetyMonitor::check"),
+    ("control the position", "pid::cascade::PositionController::step"),
+    ("write a command", "ardrone_link::at::encode::Datagram::push"),
     ("translate the shipped agent", "translator::translate"),
 ];
 
@@ -28,13 +28,15 @@ pub(super) fn work() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// Counts the instructions of the work.
-pub(super) fn measure(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
+pub(super) fn measure(
+    programs: &Programs,
+    figures: &mut Figures,
+) -> Result<(), Box<dyn std::error::Error>> {
     let folder = tempfile::tempdir()?;
     let counts = folder.path().join("counts");
-    let own = std::env::current_exe()?;
     let mut valgrind = Command::new("valgrind");
     valgrind.args(["--quiet", "--tool=callgrind"]);
-    valgrind.arg(format!("--callgrind-out-file={}", counts.display())).arg(own);
+    valgrind.arg(format!("--callgrind-out-file={}", counts.display())).arg(programs.named("xtask"));
     output(valgrind.args(["figures", "--work"]))?;
     let text = String::from_utf8_lossy(&std::fs::read(&counts)?).into_owned();
     for (what, function) in COUNTED {

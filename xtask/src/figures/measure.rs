@@ -1,7 +1,7 @@
 //! Measures each part.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -24,13 +24,40 @@ pub(super) fn measure(
     match part {
         Part::Flights => flights(figures),
         Part::Tags => over_tags(figures),
-        Part::Instructions => counted::measure(figures),
-        Part::Cadence => cadence::measure(figures),
+        Part::Instructions => counted::measure(&Programs::build()?, figures),
+        Part::Cadence => cadence::measure(&Programs::build()?, figures),
         Part::Agent => agent(figures),
         Part::Proofs => proofs(arguments.proofs.as_deref(), figures),
         Part::Code => code(figures),
         Part::Build => build(figures),
         Part::Tests => tests(arguments.tests.as_deref(), figures),
+    }
+}
+
+/// The programs whose instructions and cadence are measured, always built in the same way: another profile, and what cargo does
+/// for the next build, make other instructions.
+pub(super) struct Programs {
+    folder: PathBuf,
+}
+
+impl Programs {
+    /// Builds them, unless that has been done where this program is (`PROGRAMS_ARE_BUILT`).
+    fn build() -> Result<Self, Box<dyn std::error::Error>> {
+        if std::env::var_os("PROGRAMS_ARE_BUILT").is_some() {
+            let own = std::env::current_exe()?;
+            return Ok(Self { folder: own.parent().map(Path::to_owned).unwrap_or_default() });
+        }
+        let target = case::root().join("target/figures");
+        let mut build = Command::new(env!("CARGO"));
+        build.args(["build", "--quiet", "--locked", "--workspace", "--bins"]);
+        build.env("CARGO_INCREMENTAL", "0").arg("--target-dir").arg(&target);
+        output(build.current_dir(case::root()))?;
+        Ok(Self { folder: target.join("debug") })
+    }
+
+    /// The path of a program.
+    pub(super) fn named(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
     }
 }
 

@@ -129,7 +129,7 @@ release. A loss that is meant is recorded with the change that causes it (`cargo
 gain, which is told, so that it is not lost again unseen.
 
 What is a loss depends on how much a figure varies where nothing has changed. Flights are simulated: they are the same each time. Instructions are
-counted (by valgrind, of the development profile), and are the same on each machine, up to the compiler's version. Of what depends on the
+counted (by valgrind, of a development build without incremental files), and are the same on each machine, up to the compiler's version. Of what depends on the
 machine, the first build is divided by the work of a reference that is compiled beside it, and the regularity of commands has wide limits; the rest is
 shown, and not judged. What is recorded and not measured, or measured and not recorded, is a loss.
 
