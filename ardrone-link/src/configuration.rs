@@ -32,7 +32,7 @@ impl Configuration {
     }
 
     /// Whether the drone reports `value` for `key`. Numbers are compared as numbers, because the drone prints
-    /// `0.2` as `2.0000000e-01`.
+    /// `0.2` as `2.0000000e-01`: they may differ by 1e-5, of a `value` above 1 by that fraction.
     pub fn has(&self, key: &str, value: &str) -> bool {
         let Some(reported) = self.get(key) else { return false };
         match (reported.parse::<f64>(), value.parse::<f64>()) {

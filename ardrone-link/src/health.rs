@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// Duration of errors after which the socket itself is considered broken and is reopened.
 const PATIENCE: Duration = Duration::from_millis(300);
-/// Interval at which a lasting problem is reported again.
+/// A problem is reported again if there was none for this time.
 const QUIET: Duration = Duration::from_secs(5);
 
 /// Monitors a datagram socket: counts its errors, reports a problem once, and decides when the socket must be
@@ -26,7 +26,8 @@ impl SocketHealth {
         self.lost = false;
     }
 
-    /// Records a failed call at `now`; returns whether to report it.
+    /// Records a failed call at `now`, the time since any fixed moment; returns whether to report it. A refusal by the
+    /// drone, or a call that had nothing to do, is not reported; of other errors the first is, and one after 5 s without any.
     pub fn failed(&mut self, now: Duration, error: &Error) -> bool {
         match error.kind() {
             // Nothing to read, or no buffer space at the moment.

@@ -13,7 +13,8 @@
 //! - `net`, with the feature of that name: a client on real sockets, using tokio.
 //!
 //! Both directions are implemented here, so that an autopilot and a simulated drone share one definition of
-//! the wire format. Wire units do not leave this crate: its types use metres, seconds and degrees.
+//! the wire format. Wire units do not leave this crate: its types use metres, seconds and degrees, apart from fields of
+//! navdata that have no unit in their name, which are the firmware's own numbers.
 //!
 //! ```
 //! use ardrone_link::at::{Command, Datagram, Ref};
@@ -64,7 +65,7 @@ pub const NAVDATA_PORT: u16 = 5554;
 pub const CONTROL_PORT: u16 = 5559;
 /// TCP: live video.
 pub const VIDEO_PORT: u16 = 5555;
-/// TCP: FTP, with the firmware version in a file.
+/// TCP: FTP, with the firmware's version in the file `version.txt`.
 pub const FTP_PORT: u16 = 5551;
 /// The datagram that makes the drone send navdata to its sender.
 pub const WAKE_UP: [u8; 4] = [1, 0, 0, 0];

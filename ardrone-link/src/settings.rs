@@ -102,7 +102,8 @@ pub enum BitRateControl {
 pub enum Detection {
     /// Nothing.
     None,
-    /// As selected for each camera.
+    /// As selected for each camera by [`Setting::DetectionsFront`], [`Setting::DetectionsBottom`] and
+    /// [`Setting::DetectionsBottomInStep`].
     Selected,
     /// The black and white oriented roundel.
     OrientedRoundel,
@@ -206,17 +207,17 @@ settings! {
     ClimbMaxMS(f64) = "control:control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
     /// Maximum yaw rate, 40 to 350 °/s; 100 °/s by default.
     YawRateMaxDegS(f64) = "control:control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// Maximum tilt indoors.
+    /// Maximum tilt indoors, 0° to 30°.
     IndoorEulerAngleMaxDeg(f64) = "control:indoor_euler_angle_max", User, |key, deg| degrees(key, *deg, 0.0, 30.0);
-    /// Maximum rate of climb indoors.
+    /// Maximum rate of climb indoors, 0.2 to 2 m/s.
     IndoorClimbMaxMS(f64) = "control:indoor_control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
-    /// Maximum yaw rate indoors.
+    /// Maximum yaw rate indoors, 40 to 350 °/s.
     IndoorYawRateMaxDegS(f64) = "control:indoor_control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// Maximum tilt outdoors.
+    /// Maximum tilt outdoors, 0° to 30°.
     OutdoorEulerAngleMaxDeg(f64) = "control:outdoor_euler_angle_max", User, |key, deg| degrees(key, *deg, 0.0, 30.0);
-    /// Maximum rate of climb outdoors.
+    /// Maximum rate of climb outdoors, 0.2 to 2 m/s.
     OutdoorClimbMaxMS(f64) = "control:outdoor_control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
-    /// Maximum yaw rate outdoors.
+    /// Maximum yaw rate outdoors, 40 to 350 °/s.
     OutdoorYawRateMaxDegS(f64) = "control:outdoor_control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
     /// Reference for holding the position.
     FlyingMode(FlyingMode) = "control:flying_mode", Session, |_, mode| Ok(match mode {
@@ -254,11 +255,12 @@ settings! {
         Detection::OrientedRoundel => "12",
         Detection::VisionV2 => "13",
     }.to_owned());
-    /// Bit mask of tags for the front camera.
+    /// Tags for the front camera, a bit mask: kind `k` is bit `k - 1`, the black and white oriented roundel bit 7. It counts
+    /// with [`Detection::Selected`].
     DetectionsFront(u32) = "detect:detections_select_h", Session, |_, bits| Ok(bits.to_string());
-    /// Bit mask of tags for the bottom camera, at 30 Hz.
+    /// Tags for the bottom camera at 30 Hz, with the bits of [`Setting::DetectionsFront`].
     DetectionsBottom(u32) = "detect:detections_select_v", Session, |_, bits| Ok(bits.to_string());
-    /// Bit mask of tags for the bottom camera, in sync with the hover control.
+    /// Tags for the bottom camera in sync with the hover control, with the bits of [`Setting::DetectionsFront`].
     DetectionsBottomInStep(u32) = "detect:detections_select_v_hsync", Session, |_, bits| Ok(bits.to_string());
     /// Colours of the other drones' hulls.
     EnemyColors(EnemyColors) = "detect:enemy_colors", Common, |_, colors| Ok(match colors {

@@ -78,11 +78,11 @@ pub struct Percepts {
     pub battery_percent: Option<u32>,
     /// Time since the newest plausible navdata, in milliseconds.
     pub blind_for_ms: i64,
-    /// Position uncertainty: standard deviation on each horizontal axis, in metres.
+    /// Position uncertainty: standard deviation on the worse horizontal axis, in metres.
     pub position_sd_m: f64,
     /// How long the sticks have been at their limit without progress towards the target, in milliseconds.
     pub saturated_for_ms: i64,
-    /// Wind disturbance as a fraction of the acceleration at full tilt.
+    /// What lasts of the wind's disturbance, as a fraction of the acceleration at full tilt.
     pub wind: f64,
     /// An operator flies by stick.
     pub steering: bool,
@@ -495,7 +495,7 @@ impl Environment for AgentStep {
     }
 }
 
-/// Distance between two poses; their headings are ignored.
+/// Distance between two poses in metres; their headings are ignored.
 pub fn distance(a: &Pose, b: &Pose) -> f64 {
     (a.x_m - b.x_m).hypot(a.y_m - b.y_m).hypot(a.z_m - b.z_m)
 }

@@ -106,8 +106,9 @@ impl FlightLimits {
         self.border.outside_m(across(place))
     }
 
-    /// Where a straight flight between two places leaves the fence, widened by a margin: the nearest place inside, at least
-    /// `by_m` from the border. `None` if it stays inside, or comes in and stays.
+    /// Where to stop before a straight flight between two places leaves the border, widened by a margin: the nearest place
+    /// inside, `by_m` from the border or as far as there is room, to where it leaves a polygon, or to `to` outside a circle.
+    /// `None` if it stays inside, or comes in and stays.
     pub fn stop_before(&self, from: &Pose, to: &Pose, margin_m: f64, by_m: f64) -> Option<Pose> {
         let leaves_m = self.border.leaves_at(across(from), across(to), margin_m)?;
         let [x_m, y_m] = self.border.nearest_inside(leaves_m, by_m).into();

@@ -7,6 +7,7 @@
 //! can. Whole flights therefore run in simulated time, deterministically, and a recorded flight can be
 //! replayed.
 //!
+//! - [`agent`]: the agent in C behind a safe interface.
 //! - [`plan`]: flight plans as text.
 //! - [`mission`]: the steps to be flown, and which is next.
 //! - [`vehicle`]: the state machine and its tick.

@@ -200,7 +200,7 @@ impl Mission {
         self.interpreter.stopped_at(pose);
     }
 
-    /// The nearest place inside the fence, at least `by_m` from its edge.
+    /// The nearest place inside the fence, `by_m` from its border, or as far as there is room.
     pub fn inside(&self, target: &Pose, by_m: f64) -> Pose {
         self.limits.nearest_inside(target, by_m)
     }

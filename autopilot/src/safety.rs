@@ -1,8 +1,8 @@
 //! The safety monitor: a last check between the agent's decision and the wire.
 //!
 //! The agent decides; the monitor only restricts. It enforces the fence, the maximum age of navdata, the
-//! limits of stick motion, and that a drone in its emergency state is never ordered to fly. A landing that it
-//! has ordered is not taken back in the air.
+//! limits of stick motion, the distance from other vehicles, and that a drone in its emergency state is never
+//! ordered to fly. A landing that it has ordered is not taken back in the air.
 
 mod apart;
 mod brake;
@@ -57,9 +57,9 @@ const LARGEST_JUMP: f64 = 1.0;
 /// Why a command was replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Veto {
-    /// The newest navdata are too old: hover instead of flying on.
+    /// The newest plausible navdata are older than 300 ms: hover instead of flying on.
     StaleNavdata,
-    /// Navdata have been unusable for too long: land.
+    /// Navdata have been unusable for more than 4 s: land.
     Blind,
     /// The drone is in its emergency state and must not be ordered to fly.
     Emergency,
@@ -148,9 +148,9 @@ impl fmt::Display for Veto {
 /// Where the drone is, and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
-    /// Pose.
+    /// Pose in the world.
     pub pose: Pose,
-    /// Velocity: right, forward, up.
+    /// Velocity in the world: x, y, z.
     pub velocity_m_s: [f64; 3],
 }
 
@@ -171,7 +171,7 @@ pub struct Situation {
     pub sticks: Sticks,
     /// Predicted pose.
     pub pose: Pose,
-    /// Predicted velocity: right, forward, up.
+    /// Predicted velocity in the world: x, y, z.
     pub velocity_m_s: [f64; 3],
     /// Predicted motion when an order of this tick takes effect: until then the drone does what it has been sent before.
     pub soon: Motion,
@@ -366,9 +366,9 @@ impl SafetyMonitor {
         }
     }
 
-    /// Limits the sticks to `most`, and their change since the last tick. Where the drone could not stop inside the
-    /// fence any more they brake, with all that there is. The descent is limited further so
-    /// that the drone can stop above the fence's floor; full gaz descends at `full_sink_m_s`.
+    /// Limits the sticks to `most`, from 0 to 1, and their change since the last tick; those that are not finite are at rest.
+    /// Where the drone could not stop inside the fence any more they brake, with all that there is. The descent is limited
+    /// further so that the drone can stop above the fence's floor; full gaz descends at `full_sink_m_s`.
     pub fn limit(
         &mut self,
         demand: &Sticks,

@@ -19,7 +19,7 @@ use crate::safety::Stopping;
 pub use self::passing::{Claim, Rank};
 pub(crate) use self::passing::{Progress, makes_way, waits, way_past};
 
-/// Most other vehicles.
+/// Most other vehicles that are kept apart from.
 pub const MAX_NEIGHBOURS: usize = 31;
 /// Standard deviations of the distance between two by which they keep further apart.
 const DEVIATIONS: f64 = 2.0;
@@ -54,9 +54,9 @@ pub struct Neighbour {
     pub system: u8,
     /// When it was there, by the clock of whoever hears it.
     pub at: Duration,
-    /// Its place in the common frame: right and forward.
+    /// Its place in the common frame: (x, y).
     pub place_m: Vector2<f64>,
-    /// Its velocity: right and forward.
+    /// Its velocity in the common frame: (x, y).
     pub velocity_m_s: Vector2<f64>,
     /// Standard deviation of the place on the worse axis.
     pub deviation_m: f64,
@@ -91,7 +91,7 @@ impl Neighbour {
 /// Why what a vehicle tells of itself is not believed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NotHeard {
-    /// A number is not finite, or negative.
+    /// A number is not finite, or the deviation is negative.
     #[error("another vehicle tells nonsense of its position")]
     Nonsense,
     /// It cannot have got there. It is taken to be there, but as uncertain as the way that it cannot have flown.
@@ -249,7 +249,8 @@ impl Neighbours {
     }
 }
 
-/// How much nearer to each other two may be than they are known to be, by the standard deviations of their places.
+/// How much nearer to each other two may be than they are known to be, in metres, by the standard deviations of their places:
+/// two of those of their distance.
 pub fn unsure_m([one_m, other_m]: [f64; 2]) -> f64 {
     DEVIATIONS * one_m.hypot(other_m)
 }

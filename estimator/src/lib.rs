@@ -13,9 +13,9 @@
 //!
 //! It is pure: samples and orders in, [`Estimate`]s out.
 //!
-//! Frame: x right, y forward, z up, in metres. The origin is where the estimator started, and the floor below
-//! the drone is z = 0; yaw in degrees, clockwise from above, zero at the initial heading. An integrated
-//! velocity is a position that drifts.
+//! Frame, called the world: x right, y forward, z up, in metres; yaw in degrees, clockwise from above. The origin is where
+//! the drone stood at the start, and yaw is zero at its heading there, unless [`EstimatorConfig::start`] puts it elsewhere;
+//! z is zero on the floor there. An integrated velocity is a position that drifts.
 //!
 //! ```
 //! use std::time::Duration;
@@ -100,7 +100,7 @@ pub struct Sample {
     pub velocity_forward_m_s: f64,
     /// Rightward velocity, levelled body frame.
     pub velocity_right_m_s: f64,
-    /// Height above the ground.
+    /// Height above the ground below.
     pub altitude_m: f64,
     /// Whether the drone is airborne; its velocity on the ground is meaningless.
     pub airborne: bool,
@@ -135,16 +135,16 @@ pub struct EstimatorConfig {
     pub identify: bool,
     /// Use of roundels on the floor, if any.
     pub tags: Option<TagConfig>,
-    /// Where the drone stands in the world at the start. Otherwise the world begins there.
+    /// Where the drone stands in the world at the start; at the origin with yaw zero if `None`.
     pub start: Option<Start>,
 }
 
 /// Where a drone stands at the start, in a world that it shares with others.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Start {
-    /// Its place: right and forward.
+    /// Its place: (x, y) in the world.
     pub place_m: Vector2<f64>,
-    /// Its heading, clockwise.
+    /// Its yaw in the world.
     pub heading_deg: f64,
     /// Standard deviation of the place on the worse axis.
     pub deviation_m: f64,
@@ -183,33 +183,34 @@ impl Default for EstimatorConfig {
     }
 }
 
-/// Measured position and motion at the time of the newest sample.
+/// Measured position and motion in the world, by the newest sample: each quantity is as old as its delay in
+/// [`EstimatorConfig`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
     /// When that sample arrived.
     pub at: Duration,
-    /// Right, forward, up.
+    /// x, y, z.
     pub position_m: Vector3<f64>,
-    /// Right, forward, up.
+    /// Along x, y, z.
     pub velocity_m_s: Vector3<f64>,
-    /// In [-180, 180), zero at the initial heading.
+    /// Clockwise, in [-180, 180).
     pub yaw_deg: f64,
     /// Height above the floor below the drone, which may differ from the floor at the start.
     pub above_floor_m: f64,
 }
 
-/// Predicted position and motion at a time.
+/// Predicted position and motion in the world at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prediction {
-    /// Right, forward, up.
+    /// x, y, z.
     pub position_m: Vector3<f64>,
-    /// Right, forward, up.
+    /// Along x, y, z.
     pub velocity_m_s: Vector3<f64>,
-    /// In [-180, 180), zero at the initial heading.
+    /// Clockwise, in [-180, 180).
     pub yaw_deg: f64,
     /// Clockwise.
     pub turn_deg_s: f64,
-    /// Acceleration that does not come from the sticks: wind, a wrong level reference. Right, forward.
+    /// Acceleration that does not come from the sticks: wind, a wrong level reference. Along x and y.
     pub disturbance_m_s2: Vector2<f64>,
     /// The same as the newest measurement shows it: sooner, and with its noise.
     pub newest_disturbance_m_s2: Vector2<f64>,
@@ -306,7 +307,8 @@ impl Estimator {
         }
     }
 
-    /// An order was sent to the drone.
+    /// An order was sent to the drone at `sent_at` on the pilot's clock, as [`Sample::arrival`]. Orders come in that order; the
+    /// last hundred are kept.
     pub fn order_sent(&mut self, sent_at: Duration, order: Order) {
         self.orders.push(sent_at, order);
     }
@@ -323,8 +325,8 @@ impl Estimator {
         Duration::from_secs_f64(self.orders.delay_s().max(0.0))
     }
 
-    /// Processes the next sample. Samples come in the order of the drone's packets; impossible values are not
-    /// used.
+    /// Processes the next sample. Samples come in the order of the drone's packets. Nothing of a sample with a value that is
+    /// impossible for an AR.Drone is used, but it counts against [`Estimator::trust`].
     pub fn update(&mut self, sample: &Sample) {
         let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
         let arrival_s = sample.arrival.as_secs_f64();
@@ -430,8 +432,8 @@ impl Estimator {
         estimate.yaw_deg = wrap_deg(self.world.heading_deg(yaw_deg));
     }
 
-    /// Processes the roundels in the packet of the newest sample. They are ignored without
-    /// [`EstimatorConfig::tags`].
+    /// Processes the roundels in the packet of the newest sample, the first [`MAX_SIGHTS`] of them. They are ignored without
+    /// [`EstimatorConfig::tags`], on the ground, and if they are those of the packet before.
     pub fn see(&mut self, sights: &[Sight]) {
         let turn_deg_s = self.heading.newest_turn_deg_s();
         let Self { config, orders, heading, identification, world, .. } = self;
@@ -632,7 +634,8 @@ impl Estimator {
     }
 
     /// Position and motion at a time: the newest measurement, propagated by the model. The time may lie as
-    /// far ahead as [`Estimator::order_delay`], because the orders until then are known.
+    /// far ahead as [`Estimator::order_delay`], because the orders until then are known. Place and velocity are not propagated
+    /// on the ground, and not for longer than 0.6 s and the link's delay.
     pub fn predicted(&self, at: Duration) -> Prediction {
         let at_s = at.as_secs_f64();
         let furthest_s = MAX_PREDICTION_S + self.identification.link_delay_s();
@@ -692,7 +695,7 @@ impl Estimator {
         }
     }
 
-    /// Advances the motions of [`Estimator::smooth`] by one step.
+    /// Advances the motions of [`Estimator::smooth`] by one step of `step_s` seconds.
     pub fn advance_smooth(&mut self, step_s: f64) {
         self.world.advance(step_s);
     }
@@ -720,14 +723,14 @@ impl Estimator {
         Some(TagStatus { is_due, ..status })
     }
 
-    /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without
-    /// which tags do not correct the heading.
+    /// Whether a known tag was in view within the last 0.5 s and a turn of some degrees would reveal the sign of its
+    /// orientation, without which tags do not correct the heading.
     pub fn would_learn_from_a_turn(&self, now: Duration) -> bool {
         self.world.would_learn_from_a_turn(now.as_secs_f64())
     }
 
-    /// Standard deviation of the position on each horizontal axis. It grows with time, distance from the
-    /// start, and silence.
+    /// Standard deviation of the position on the worse horizontal axis, in metres. It grows with time, with the distance from
+    /// the start or from where a known tag was seen last, and with silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
         let speed_m_s = self.horizontal.measured_m_s().norm();
         let known_m =
@@ -735,12 +738,12 @@ impl Estimator {
         known_m.hypot(uncertainty::silence_m(self.silence_s(now), speed_m_s))
     }
 
-    /// Standard deviation of the heading in the world, as far as its start and tags decide it.
+    /// Standard deviation of the heading in the world, in degrees, as far as its start and tags decide it.
     pub fn heading_deviation_deg(&self) -> f64 {
         self.world.heading_deviation_deg()
     }
 
-    /// Standard deviation of the height.
+    /// Standard deviation of the height, in metres.
     pub fn vertical_deviation_m(&self, now: Duration) -> f64 {
         let order = self.orders.at(now.as_secs_f64());
         self.altitude.deviation_m(self.silence_s(now), order)
@@ -756,8 +759,8 @@ impl Estimator {
         self.identification.airframe()
     }
 
-    /// Altitude of a drone that stands: of the last two the one that is nearer to the floor, because a single one may be a
-    /// wrong echo.
+    /// Altitude in metres of a drone that stands: of the last two the one that is nearer to the floor, because a single one may
+    /// be a wrong echo. Infinite if it has not been heard standing yet.
     pub fn standing_altitude_m(&self) -> f64 {
         let [before_m, last_m] = self.standing_m;
         if before_m.abs() < last_m.abs() { before_m } else { last_m }

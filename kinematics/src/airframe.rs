@@ -21,13 +21,16 @@ impl Default for DroneLimits {
 }
 
 /// Response of an airframe to its sticks. Gains are relative to what the sticks command.
+///
+/// The published models are those of `mock-drone`'s profiles: `tum_ardrone`'s Kalman filter, transfer functions fitted to
+/// flights, a thesis, and one within their range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Airframe {
     /// Achieved over commanded tilt. The published models have 1 and 2.
     pub tilt_gain: f64,
     /// Time constant of the tilt, without the dead time.
     pub tilt_lag_s: f64,
-    /// Achieved over commanded rate of climb.
+    /// Achieved over commanded rate of climb. The published models have 0.86 to 1.
     pub climb_gain: f64,
     /// Achieved over commanded rate of descent. The published models have 0.9 to 1.7.
     pub drop_gain: f64,
@@ -40,7 +43,7 @@ pub struct Airframe {
     pub drag_1_s: Vector2<f64>,
     /// Achieved over commanded rate of turn. The published models have 0.7 to 1.
     pub turn_gain: f64,
-    /// Time constant of the rate of turn. The published models have 0.02 to 0.5 s.
+    /// Time constant of the rate of turn. The published models have 0.02 to 0.51 s.
     pub turn_lag_s: f64,
 }
 
@@ -63,7 +66,7 @@ impl Airframe {
 }
 
 impl Default for Airframe {
-    /// The middle of the published models.
+    /// Within the range of the published models; each gain is 1, as commanded.
     fn default() -> Self {
         Self {
             tilt_gain: 1.0,

@@ -12,12 +12,12 @@ pub fn wrap_rad(angle_rad: f64) -> f64 {
     wrap_deg(angle_rad.to_degrees()).to_radians()
 }
 
-/// Rotates (right, forward) to the world frame.
+/// Rotates (right, forward) of a body with this yaw to (x, y) in the world frame.
 pub fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
     Rotation2::new(-yaw_deg.to_radians()) * body
 }
 
-/// Rotates (x, y) to the body frame.
+/// Rotates (x, y) in the world frame to (right, forward) of a body with this yaw.
 pub fn body_from_world(world: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
     Rotation2::new(yaw_deg.to_radians()) * world
 }

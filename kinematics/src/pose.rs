@@ -1,6 +1,6 @@
 //! Position, heading and velocity in the world frame.
 
-/// Position and heading.
+/// Position and heading in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
     /// Right.
@@ -9,11 +9,11 @@ pub struct Pose {
     pub y_m: f64,
     /// Up.
     pub z_m: f64,
-    /// Clockwise from above.
+    /// Clockwise from above, zero along y.
     pub yaw_deg: f64,
 }
 
-/// Velocity and rate of turn.
+/// Velocity and rate of turn in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Velocity {
     /// Right.
@@ -22,6 +22,6 @@ pub struct Velocity {
     pub y_m_s: f64,
     /// Up.
     pub z_m_s: f64,
-    /// Clockwise.
+    /// Clockwise from above.
     pub yaw_deg_s: f64,
 }

@@ -23,7 +23,7 @@ impl Sticks {
         Vector2::new(self.roll, -self.pitch)
     }
 
-    /// Whether each is a number that a stick can be at.
+    /// Whether each is in [-1, 1]; NaN is not.
     pub fn are_possible(&self) -> bool {
         let Self { roll, pitch, gaz, yaw } = *self;
         [roll, pitch, gaz, yaw].iter().all(|stick| (-1.0..=1.0).contains(stick))

@@ -18,7 +18,7 @@ pub type Line = ArrayString<MAX_LINE>;
 /// What has not been said for so long is no longer said again and again.
 pub const SAID_AGAIN_WITHIN: Duration = Duration::from_secs(3);
 
-/// A message without its values: by it those are told that are said again and again, with other numbers perhaps.
+/// A message without its values. Messages of one kind count as the same one said again, even with other numbers.
 pub fn kind(message: &str) -> &str {
     message.split_once('(').map_or(message, |(kind, _)| kind)
 }
@@ -26,9 +26,9 @@ pub fn kind(message: &str) -> &str {
 /// What an agent says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Said {
-    /// To which peer: the name of its vehicle.
+    /// The peer to which it is said: the name of its vehicle.
     pub to: &'static str,
-    /// What.
+    /// The whole line, with version and sender.
     pub line: Line,
 }
 

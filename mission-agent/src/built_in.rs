@@ -28,7 +28,7 @@ pub enum NoAgent {
     /// None is built in under this name.
     #[error("no agent is called `{name}`: built in are {}", names().collect::<Vec<_>>().join(", "))]
     Unknown {
-        /// It.
+        /// The name that was asked for.
         name: String,
     },
     /// It talks with others by their names, and the vehicle's is not among them.

@@ -62,7 +62,8 @@ pub struct MissionAgent {
 }
 
 impl MissionAgent {
-    /// A new agent of a vehicle, by the name under which it is built in; `places` are those of which it may ask.
+    /// A new agent of a vehicle, by the name under which it is built in. It may ask for the `places`, and whether the drone is
+    /// asked to find tags: `uses_tags`.
     ///
     /// # Errors
     /// [`NoAgent`] if there is none, or the vehicle is none of its peers.
@@ -97,7 +98,8 @@ impl MissionAgent {
         self.agent.peers()
     }
 
-    /// Lines that it could not say, because there was no room for them.
+    /// Number of lines that it could not say: longer than [`MAX_LINE`](crate::MAX_LINE), or more than 64 before
+    /// [`take_said`](Self::take_said).
     pub fn unsaid(&self) -> u64 {
         self.outbox.unsaid
     }
@@ -113,7 +115,7 @@ impl MissionAgent {
         self.outbox.said.drain(..)
     }
 
-    /// A peer says something.
+    /// A peer says something. `now` is the time since the program started, as in [`step`](Self::step).
     ///
     /// # Errors
     /// [`Misunderstood`]. Nothing has changed then.
@@ -123,7 +125,8 @@ impl MissionAgent {
         self.agent.hear(&mut Step::new(sensed, &self.places, me, &mut self.outbox), line)
     }
 
-    /// One step; returns what it orders. The orders are given one after the other, unless one is [`refused`](Self::refused).
+    /// One step; returns what it orders. The orders are given one after the other; once one is
+    /// [`refused`](Self::refused), those after it are not given.
     pub fn step(&mut self, now: Duration, vehicle: &Vehicle) -> ArrayVec<OperatorOrder, 2> {
         let status = vehicle.status(now);
         let obeyed =
@@ -152,7 +155,7 @@ impl MissionAgent {
         self.orders(wanted, &status, vehicle, flying)
     }
 
-    /// An order was refused: it is given again, but not at once.
+    /// An order was refused: it is given again, but not within 1 s.
     pub fn refused(&mut self, now: Duration, _: &Refused) {
         self.ordered = None;
         self.waits_until = now + PATIENCE;

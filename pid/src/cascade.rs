@@ -31,7 +31,7 @@ pub struct CascadeConfig {
     pub climb_speed_max_m_s: f64,
     /// Fraction of the vertical limits that the reference uses for braking; the rest is reserved for errors.
     pub braking_share: f64,
-    /// Horizontal gains: acceleration per metre, per metre-second, and per m/s.
+    /// Horizontal gains: acceleration in m/s² per metre, per metre-second, and per m/s.
     pub horizontal: PidGains,
     /// Natural frequency of the height loop.
     pub vertical_frequency_rad_s: f64,
@@ -65,7 +65,7 @@ impl Default for CascadeConfig {
 
 impl CascadeConfig {
     /// Limits of a reference that a drone can follow which accelerates with `full_m_s2` at full tilt, against a disturbance,
-    /// with this fraction of the sticks and no faster than `speed_m_s`.
+    /// with this fraction of the sticks and no faster than `speed_m_s`. The disturbance takes two thirds of `full_m_s2` at most.
     pub fn motion_limits(
         &self,
         full_m_s2: f64,
@@ -136,7 +136,8 @@ impl PositionController {
         self.way = None;
     }
 
-    /// Stick fractions for the next step, within the limit. Inputs that are NaN result in no motion.
+    /// Stick fractions for the next step, within the limit. Inputs that are not finite, and an airframe with a gain of tilt,
+    /// climb, descent or thrust that is not positive, result in centred sticks and change nothing in the controller.
     pub fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
         if !inputs.is_finite() {
             return Sticks::default();

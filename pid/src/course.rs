@@ -10,7 +10,8 @@ const RESPONSE_S: f64 = 0.15;
 const APPROACH_1_S: f64 = 1.8;
 
 impl MotionLimits {
-    /// The largest speed from which it comes to rest within a distance.
+    /// The largest speed from which a [`Course`] comes to rest within a distance; zero for a negative one. It brakes with half of
+    /// the acceleration, and near the end its speed is proportional to the distance that is left.
     pub fn speed_before_stop_m_s(&self, distance_m: f64) -> f64 {
         // Half of the acceleration is left for the time in which the velocity follows.
         let braking_m_s2 = self.acceleration_m_s2 / 2.0;
@@ -22,7 +23,7 @@ impl MotionLimits {
     }
 }
 
-/// A point that moves smoothly, and its motion: right and forward.
+/// A point that moves smoothly, and its motion: (x, y) in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
     /// Where it is.
@@ -34,19 +35,19 @@ pub struct Course {
 }
 
 impl Course {
-    /// A course that begins with this motion.
+    /// A course that begins with this motion, without acceleration.
     pub fn new(position_m: Vector2<f64>, velocity_m_s: Vector2<f64>) -> Self {
         Self { position_m, velocity_m_s, acceleration_m_s2: Vector2::zeros() }
     }
 
-    /// Velocity that leads to a place.
+    /// Velocity that leads to a place, with the largest speed from which the course comes to rest there.
     pub fn velocity_to(&self, place_m: &Vector2<f64>, limits: &MotionLimits) -> Vector2<f64> {
         let way_m = place_m - self.position_m;
         let speed_m_s = limits.speed_before_stop_m_s(way_m.norm());
         way_m.try_normalize(f64::EPSILON).map_or_else(Vector2::zeros, |way| way * speed_m_s)
     }
 
-    /// Moves on for `step_s`, towards the wanted velocity.
+    /// Moves on for `step_s`, towards the wanted velocity, within the limits.
     pub fn advance(&mut self, wanted_m_s: Vector2<f64>, limits: &MotionLimits, step_s: f64) {
         let wanted_m_s = wanted_m_s.cap_magnitude(limits.speed_m_s);
         let wanted_m_s2 =

@@ -12,7 +12,7 @@ pub struct Inputs<'a> {
     pub pose: &'a Pose,
     /// Velocity at that time.
     pub velocity: &'a Velocity,
-    /// Disturbance acceleration (right, forward).
+    /// Disturbance acceleration (x, y), in the world frame.
     pub disturbance_m_s2: Vector2<f64>,
     /// Identified response of the airframe.
     pub airframe: Airframe,
@@ -20,7 +20,7 @@ pub struct Inputs<'a> {
     pub target: &'a Pose,
     /// Time for which the demand will hold.
     pub step_s: f64,
-    /// Limit of the sticks, from 0 to 1.
+    /// Limit of the sticks: a fraction of the full stick, clamped to 0 to 1.
     pub limit: f64,
     /// Largest horizontal speed, in m/s, besides that of the law's configuration.
     pub speed_m_s: f64,

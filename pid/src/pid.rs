@@ -61,7 +61,7 @@ impl Pid {
     }
 
     /// Updates the integral for the next step of `step_s` seconds, from the error and from the `applied` part
-    /// of the `wanted` output.
+    /// of the `wanted` output. Without a proportional gain there is no anti-windup.
     pub fn learn(&mut self, inputs: &PidInputs, wanted: f64, applied: f64, step_s: f64) {
         let PidGains { integral, proportional, .. } = self.gains;
         let error = inputs.setpoint - inputs.measured;
@@ -80,7 +80,7 @@ impl Pid {
         self.gains = gains;
     }
 
-    /// The integral.
+    /// The integral part of the output.
     pub fn integral(&self) -> f64 {
         self.integral
     }

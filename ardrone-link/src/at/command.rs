@@ -183,13 +183,13 @@ pub enum Motion {
 /// The CTRL command's modes that a client may send.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ControlMode {
-    /// Send the configuration on the control port.
+    /// 4: send the configuration on the control port.
     SendConfiguration,
-    /// Clear the command-acknowledge bit.
+    /// 5: clear the command-acknowledge bit.
     ClearAcknowledge,
-    /// Send the list of custom configurations on the control port.
+    /// 6: send the list of custom configurations on the control port.
     SendCustomConfigurations,
-    /// Any other mode; only ever decoded.
+    /// Any other mode, by its number, which is also sent.
     Other(i32),
 }
 

@@ -22,7 +22,7 @@ pub enum ConfigError {
         /// The key.
         key: String,
     },
-    /// The text contains a quote, a comma in the key, or a control character.
+    /// The key or the value contains a quotation mark, or a byte that is no printable ASCII.
     #[error("`{text}` contains a character that AT commands cannot carry")]
     Character {
         /// The text.
@@ -33,7 +33,7 @@ pub enum ConfigError {
     Length {
         /// The text.
         text: String,
-        /// The maximum length.
+        /// The maximum length in bytes.
         limit: usize,
     },
 }
@@ -84,13 +84,13 @@ impl Config {
 }
 
 impl Config {
-    /// Starts a flight animation of this duration.
+    /// Starts a flight animation of this duration, which is sent in whole milliseconds.
     pub fn flight_animation(animation: FlightAnimation, duration: Duration) -> Self {
         let value = format!("{},{}", animation.number(), duration.as_millis());
         Self::plain("control:flight_anim", value)
     }
 
-    /// Starts an LED animation with this frequency and duration.
+    /// Starts an LED animation with this frequency and duration, of which the whole seconds are sent.
     pub fn led_animation(animation: LedAnimation, frequency: Hertz, duration: Duration) -> Self {
         let bits = frequency.get().to_bits().cast_signed();
         let value = format!("{},{bits},{}", animation.number(), duration.as_secs());

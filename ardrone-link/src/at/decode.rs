@@ -17,10 +17,10 @@ use super::config::Config;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DecodeError {
-    /// Not of the form `AT*NAME=sequence,arguments`.
+    /// Not of the form `AT*NAME=sequence,arguments`, or its sequence number is negative or has more than 32 bits.
     #[error("malformed AT command `{command}`")]
     Malformed {
-        /// The command, made printable.
+        /// Its first 80 bytes, with U+FFFD for each that is no printable ASCII.
         command: String,
     },
     /// Too few arguments, or some of the wrong type or out of range.
@@ -31,8 +31,8 @@ pub enum DecodeError {
     },
 }
 
-/// Decodes the commands of a datagram with their sequence numbers, in order. Empty lines are skipped;
-/// carriage return, line feed or both end a command; surplus arguments are ignored.
+/// Decodes the commands of a datagram with their sequence numbers, in order. Carriage return, line feed and NUL end a
+/// command, and need not end the last; empty lines are skipped; surplus arguments are ignored.
 pub fn decode(datagram: &[u8]) -> impl Iterator<Item = Result<(u32, Command), DecodeError>> {
     datagram
         .split(|byte| matches!(byte, b'\r' | b'\n' | 0))

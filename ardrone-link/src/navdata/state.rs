@@ -3,7 +3,7 @@
 use bitflags::bitflags;
 
 bitflags! {
-    /// The 32 state bits at the head of every navdata packet.
+    /// The 32 state bits at the head of every navdata packet: `def_ardrone_state_mask_t` of Parrot's SDK 2.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub struct DroneState: u32 {
         /// The drone is in the air.
@@ -60,7 +60,7 @@ bitflags! {
     }
 }
 
-/// The major control state: the high half of the demo option's first word.
+/// The major control state: the high half of the demo option's first word (SDK 2, `control_states.h`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ControlState {
     /// Before anything else.

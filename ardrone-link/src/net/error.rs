@@ -30,7 +30,8 @@ pub enum StartError {
     },
 }
 
-/// Why a client has ended. Whatever the reason, its last datagrams ordered the landing.
+/// Why a client has ended. Its last datagrams ordered the landing, unless the runtime ended first, or the drone was never sent
+/// anything.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ClientError {
@@ -88,7 +89,7 @@ pub enum ConfigureError {
     /// The drone is not connected or not configured. Nothing was sent.
     #[error("the drone is not ready: wait for `ready()`")]
     NotReady,
-    /// The drone did not acknowledge it within [`super::CONFIGURE_LIMIT`].
+    /// The drone did not acknowledge it within 2 s of its first datagram, or [`super::CONFIGURE_LIMIT`] of the call.
     #[error("the drone did not acknowledge {key}")]
     NotAcknowledged {
         /// As `section:name`.
@@ -169,7 +170,7 @@ pub enum Refusal {
     /// The order requires a drone that hovers or flies.
     #[error("the drone is not in flight: wait for `take_off()`")]
     NotFlying,
-    /// The order requires a drone on the ground.
+    /// The order requires a connected drone on the ground.
     #[error("the drone does not stand on the ground: wait for `land()`")]
     NotStanding,
 }

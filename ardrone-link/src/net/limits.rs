@@ -11,7 +11,7 @@ pub const CONFIGURE_LIMIT: Duration = Duration::from_secs(10);
 
 /// Period of AT commands recommended by Parrot.
 pub(super) const TICK: Duration = Duration::from_millis(30);
-/// Receive buffer, larger than any navdata packet.
+/// Receive buffer; no navdata packet is longer.
 pub(super) const BUFFER_BYTES: usize = 4096;
 /// Capacity of an event subscription.
 pub(super) const MAX_EVENTS: usize = 256;

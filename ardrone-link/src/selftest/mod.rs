@@ -27,8 +27,10 @@ const FIRST_ANSWER: Duration = Duration::from_secs(3);
 /// each check as soon as it is made. It takes about 20 s.
 ///
 /// # Errors
-/// [`Refusal`] if the drone is silent, flies, or obeys somebody else: then nothing was set. [`Refusal::Stopped`] if the examination was
-/// called off: then what was set has been set back.
+/// [`Refusal::Silent`] and [`Refusal::Commanded`]: nothing was set. [`Refusal::Flies`]: nothing was set in a drone that flew at
+/// the beginning; to one that lifts off during the examination nothing is sent any more, so that it keeps what was set.
+/// [`Refusal::Stopped`] if the examination was called off: what was set has been set back. [`Refusal::Gone`]: what was set may
+/// not have been set back.
 pub fn examine(
     contact: &mut impl Contact,
     settings: &[Config],

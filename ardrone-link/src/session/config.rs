@@ -16,11 +16,11 @@ pub struct SessionConfig {
     pub identity: Option<Identity>,
     /// Whether the configuration is read back over the control port before the session is ready.
     pub read_back: bool,
-    /// Silence after which navdata are requested again.
+    /// Silence after which navdata are requested again; 200 ms by default.
     pub wake_up_interval: Duration,
-    /// Silence after which the link counts as lost. The drone's own limit is 2 s.
+    /// Silence after which the link counts as lost; 2 s by default, which is also the drone's own limit.
     pub loss_timeout: Duration,
-    /// Timeout of a take-off, after which its order is withdrawn.
+    /// Time in which the drone must have left the ground, after which a take-off order is withdrawn; 8 s by default.
     pub take_off_timeout: Duration,
 }
 

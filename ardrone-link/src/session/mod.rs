@@ -162,7 +162,7 @@ impl Session {
         self.datagram.as_bytes()
     }
 
-    /// Whether the drone is connected and configured.
+    /// Whether the drone is connected and [`Event::Ready`] has been said of it.
     pub fn is_ready(&self) -> bool {
         self.link == Link::Alive && self.settings.are_applied()
     }
@@ -172,12 +172,12 @@ impl Session {
         self.link == Link::Alive
     }
 
-    /// The state bits of the newest packet.
+    /// The state bits of the newest accepted packet; none before the first.
     pub fn state(&self) -> DroneState {
         self.state
     }
 
-    /// Time since the newest packet; `None` if there was none.
+    /// Time since the newest accepted packet; `None` if there was none.
     pub fn silence(&self, now: Duration) -> Option<Duration> {
         self.last_navdata.map(|heard| now.saturating_sub(heard.at))
     }

@@ -14,7 +14,7 @@ pub enum Input<'a> {
     Control(&'a [u8]),
     /// The beginning of a tick, every 30 ms, with the order that it carries out. Nothing is sent until
     /// navdata arrive, because the drone may already be flying: any REF would land it or compete with its
-    /// pilot. A REF that could lift the drone is left out while the drone is silent.
+    /// pilot. A REF that could lift the drone is left out while the drone is silent for 300 ms or more.
     Tick(Order),
     /// A tick without a command, for a drone that another pilot flies: its silence is still detected.
     Listen,
@@ -40,13 +40,13 @@ pub enum Request {
     /// is dropped.
     FlatTrim,
     /// Cut the motors at once, wherever the drone is: **it falls**. Repeated until the drone reports that
-    /// they are cut.
+    /// they are cut, for 5 s at most.
     EmergencyStop,
     /// Make sure that the next tick's commands are obeyed, whatever numbers another client has used: the drone does not do
     /// what it was told. Repeat it as long as that lasts. Each time a delayed old datagram may be obeyed, too.
     Insist,
-    /// Clear an emergency so that the drone can fly again. Use it only on the ground, after a person has
-    /// inspected the drone.
+    /// Clear an emergency so that the drone can fly again. Repeated until the drone reports none, for 5 s at most. Use it
+    /// only on the ground, after a person has inspected the drone.
     EmergencyReset,
 }
 
@@ -109,26 +109,27 @@ pub enum Event {
         /// `section:name`
         key: String,
     },
-    /// The drone never acknowledged a configuration key.
+    /// The drone did not acknowledge a configuration key within 2 s. The next key follows.
     ConfigurationTimedOut {
         /// `section:name`
         key: String,
     },
     /// The configuration was read back over the control port.
     ConfigurationRead(Configuration),
-    /// The configuration could not be read back.
+    /// The configuration could not be read back within 6 s.
     ConfigurationNotRead,
-    /// All settings are applied: the drone may fly.
+    /// The handshake is complete: each setting was acknowledged or timed out, and the configuration, where it is asked for,
+    /// was read back or could not be. The events before it say which.
     Ready,
-    /// No navdata for the loss timeout.
+    /// No navdata for [`loss_timeout`](super::SessionConfig::loss_timeout).
     LinkLost,
     /// The drone has restarted: its state is reset, take-off orders are withdrawn.
     DroneRestarted,
     /// The drone has left the ground.
     Airborne,
-    /// The drone is on the ground again.
+    /// The drone is on the ground again. Not said of one that falls with its motors cut.
     Landed,
-    /// The drone has not left the ground within the take-off timeout.
+    /// The drone has not left the ground within [`take_off_timeout`](super::SessionConfig::take_off_timeout).
     TakeOffTimedOut,
     /// The emergency bit rose: the motors are cut.
     Emergency,

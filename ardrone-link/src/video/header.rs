@@ -123,7 +123,8 @@ pub struct Header {
 }
 
 impl Header {
-    /// Decodes a header at the beginning of `bytes`; `None` if this is no header, or fewer than [`HEADER_BYTES`].
+    /// Decodes a header at the beginning of `bytes`; `None` if these are fewer than [`HEADER_BYTES`], do not begin with
+    /// [`SIGNATURE`] and version 2, or claim sizes that cannot be true.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         let mut fields = bytes.strip_prefix(&SIGNATURE)?;
         if bytes.len() < HEADER_BYTES || fields.get_u8() != VERSION {

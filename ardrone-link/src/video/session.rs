@@ -63,7 +63,7 @@ enum Phase {
 
 /// Keeps the stream alive: connects, reconnects after silence or an end, and passes on what can be shown.
 ///
-/// It is driven like the session: [`Self::handle`] for each input, then [`Self::poll`] until it returns `None`. A
+/// It is driven like the session: [`Self::handle`] for each input, then [`Self::poll`] until it returns `None`. An
 /// [`Input::Tick`] every 100 ms is enough.
 #[derive(Debug)]
 pub struct VideoSession {
@@ -94,7 +94,7 @@ impl VideoSession {
         }
     }
 
-    /// Takes an input at a time since any beginning.
+    /// Takes an input. `now` is the time since any fixed moment, the same as in [`Self::new`].
     pub fn handle(&mut self, now: Duration, input: Input<'_>) {
         match input {
             Input::Opened => {

@@ -3,7 +3,7 @@
 /// Source of the agent in use.
 pub const SOURCE: &str = include_str!("../../agent/autopilot.asl");
 
-/// Text of the plan that begins at `line`, up to its full stop.
+/// Text of the plan that begins at `line`, counted from 1, up to its full stop; empty behind the last line.
 pub fn plan_text(agent: &str, line: u32) -> &str {
     let first = usize::try_from(line).unwrap_or(1).saturating_sub(1);
     let start: usize = agent.split_inclusive('\n').take(first).map(str::len).sum();

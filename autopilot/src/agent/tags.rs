@@ -16,10 +16,10 @@ pub struct TagPercepts {
     pub age_ms: i64,
     /// Whether that was just now.
     pub seen: bool,
-    /// The nearest of the tags whose place is known: right and forward, in metres.
+    /// The nearest of the tags whose place is known: (x, y) in the world, in metres.
     pub nearest_m: Option<[f64; 2]>,
-    /// Displacement during the drone's own landing from low above the floor, because of the wind: right and
-    /// forward, in metres.
+    /// Displacement during the drone's own landing from low above the floor, because of the wind: (x, y) in
+    /// the world, in metres.
     pub landing_drift_m: [f64; 2],
 }
 

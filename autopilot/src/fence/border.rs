@@ -11,7 +11,8 @@ use super::polygon::{BorderError, Polygon, Wall};
 /// Corners of a circle that is drawn.
 const DRAWN_CORNERS: u32 = 360;
 
-/// The border of the fence, seen from above, in metres right and forward of the start.
+/// The border of the fence, seen from above, in metres right and forward of the start: of the origin of the world, where the
+/// start is surveyed.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Border(Kind);
 
@@ -56,7 +57,7 @@ impl Border {
         }
     }
 
-    /// Its corners, as it is drawn; a circle has many.
+    /// Its corners, as it is drawn, each once: those of a circle are 360 points of it.
     pub fn outline_m(&self) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
         let (radius_m, corners_m) = match self.shape() {
             Shape::Circle { radius_m } => (Some(radius_m), &[][..]),
@@ -157,8 +158,8 @@ impl Border {
         }
     }
 
-    /// Where the straight way between two places leaves the border, widened by a margin; `None` if it stays inside, or comes
-    /// in and stays. Between two places inside a circle it does.
+    /// Where the straight way between two places leaves a polygon, widened by a margin; of a circle it is `to_m`, if that is
+    /// outside. `None` if the way stays inside, or comes in and stays.
     pub fn leaves_at(
         &self,
         from_m: Vector2<f64>,

@@ -14,9 +14,10 @@ use crate::agent::ApproachSettings;
 /// Expected course of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expectation {
-    /// Target pose, if the step moves the drone.
+    /// Target pose in the world, if the step flies to one: a target, or the place above the tag to land on.
     pub target: Option<Pose>,
-    /// Pose at the end of the step, relative to the place of take-off and the floor.
+    /// Pose at the end of the step in the world, of which the place of take-off on the floor is the origin, unless
+    /// [`FlightLimits::start`] is given.
     pub place: Pose,
     /// Length of the way, in metres.
     pub leg_m: f64,
@@ -124,13 +125,14 @@ impl Plan {
         self.steps().iter().map(|step| expectations.step(step.command)).collect()
     }
 
-    /// Expected duration of the flight.
+    /// Expected duration of the flight. In contrast to [`Plan::expectations`] it leaves out the ways to tags that the plan
+    /// declares.
     pub fn expected_time(&self, limits: &FlightLimits) -> Duration {
         expected_time(self.steps(), limits)
     }
 }
 
-/// Expected course of each of these steps.
+/// Expected course of each of these steps. A landing on a tag is expected where the drone is.
 pub fn expectations(steps: &[Step], limits: &FlightLimits) -> Vec<Expectation> {
     let mut expectations = Expectations::new(limits);
     steps.iter().map(|step| expectations.step(step.command)).collect()

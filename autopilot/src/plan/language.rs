@@ -80,7 +80,7 @@ impl Declaration {
         }
     }
 
-    /// Whether its first two numbers lead somewhere.
+    /// Whether it is a target, so that its first two numbers lead somewhere: `goto`, `moveBy` or `moveByRel`.
     pub fn is_target(&self) -> bool {
         matches!(
             (self.meaning)([0.0; MOST]),

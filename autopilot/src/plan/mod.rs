@@ -1,8 +1,9 @@
 //! Flight plans in `tum_ardrone`'s script language.
 //!
 //! One command per line; `#` and `//` start comments. Lengths are in metres, angles in degrees, times in
-//! seconds. x is right, y forward, z up, yaw clockwise. Coordinates are relative to the reference, which is
-//! the pose at the end of the first take-off until `setReference` moves it.
+//! seconds. x is right, y forward, z up along the axes of the world, whatever the drone's heading is; yaw is clockwise.
+//! Coordinates are relative to the reference, until `setReference` moves it: across the place where the first take-off
+//! ended, or the origin of the world if tags are in use or [`FlightLimits::start`] is given; upwards the [`ZOrigin`].
 //!
 //! ```
 //! let plan = autopilot::Plan::parse("square.txt", "takeoff\ngoto 0 1 0 0\nland\n")?;
@@ -75,14 +76,14 @@ pub enum Command {
     GoTo(Pose),
     /// `moveBy x y z yaw`: from the current target.
     MoveBy(Pose),
-    /// `moveByRel x y z yaw`: from the drone's pose.
+    /// `moveByRel x y z yaw`: from the drone's pose, along the axes of the world.
     MoveByRelative(Pose),
     /// `hold seconds`: stay at the last target.
     Hold {
         /// Seconds.
         time_s: f64,
     },
-    /// `setReference x y z yaw`: relative to the end of the first take-off.
+    /// `setReference x y z yaw`: relative to where the reference is before any `setReference`.
     SetReference(Pose),
     /// `setReference $POSE$`: at the drone's pose.
     SetReferenceHere,
@@ -243,7 +244,7 @@ impl Plan {
         (Some(Self { name, text, steps, tags, notes }), diagnostics)
     }
 
-    /// The name given to [`Plan::parse`].
+    /// The name given to [`Plan::parse`]; empty from [`Plan::review`].
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -258,7 +259,7 @@ impl Plan {
         &self.steps
     }
 
-    /// The tags that it declares, right and forward of the start.
+    /// The tags that it declares, in the world.
     pub fn tags(&self) -> &[SurveyedTag] {
         &self.tags
     }

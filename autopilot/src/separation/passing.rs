@@ -36,7 +36,7 @@ pub struct Rank {
 /// A way that a vehicle wants to have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
-    /// From its place to this one, in the common frame: right and forward.
+    /// From its place to this one, in the common frame: (x, y).
     pub to_m: Vector2<f64>,
     /// Before whom it goes.
     pub rank: Rank,

@@ -26,8 +26,8 @@ pub struct Decision {
     pub vertical_deviation_m: f64,
     /// What each quantity in navdata is worth, in the order of [`Quantity::ALL`].
     pub worth: [Worth; Quantity::ALL.len()],
-    /// What lasts of the wind, as an acceleration of the drone towards right and forward in the world; of it the percepts have
-    /// the share of full tilt.
+    /// What lasts of the wind, as an acceleration of the drone along x and y in the world; of it the percepts have the share
+    /// of full tilt.
     pub wind_m_s2: Vector2<f64>,
     /// The known tags and their status, if tags are used.
     pub tags: Option<TagStatus>,

@@ -25,7 +25,8 @@ pub enum FlightEvent {
     NoTagDetection,
     /// The drone does not confirm the bit rate of the video.
     NoVideoRate,
-    /// All settings are applied.
+    /// The settings are complete, apart from those that the drone did not confirm, and the level reference is being set if it
+    /// stands on the ground.
     Configured,
     /// The drone is already in the air, and the plan takes it over.
     TakingOver,

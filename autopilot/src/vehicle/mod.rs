@@ -1,8 +1,8 @@
 //! The vehicle: navdata and operator orders in, one AT datagram every 30 ms out, the agent in between.
 //!
 //! A [`Vehicle`] is a pure state machine. The shell passes in what arrives ([`Vehicle::handle`]): navdata, bytes from the
-//! control port, operator orders, and every 30 ms a tick; then it sends and displays the outputs ([`Vehicle::poll`]). The vehicle rests on the
-//! ground until an operator starts a mission, flies it, and rests again.
+//! control port, operator orders, and every 30 ms a tick; then it sends and displays the outputs ([`Vehicle::poll`]). The
+//! vehicle rests on the ground until an operator starts a mission, flies it, and rests again.
 
 mod control;
 mod cross_check;
@@ -118,7 +118,7 @@ pub struct VehicleConfig {
     pub navdata: NavdataRate,
     /// Whether the drone is asked for the position by its flight recorder, which is only reported.
     pub gps: bool,
-    /// Bit rate of the video that is asked for, in kbit/s; otherwise the drone keeps its own.
+    /// Bit rate of the video that is asked for, 250 to 4000 kbit/s; otherwise the drone keeps its own.
     pub video_kbit_s: Option<u32>,
     /// Frequency of the ultrasound that is asked for; otherwise the drone keeps its own.
     pub ultrasound: Option<Ultrasound>,
@@ -146,8 +146,8 @@ impl Default for StationPatience {
 }
 
 impl VehicleConfig {
-    /// The drone stands there at its first start, in a world that it shares with others: of its places are its targets, the
-    /// fence and the tags.
+    /// The drone stands there at its first start, in a world that it shares with others: targets, fence and tags are places of
+    /// that world. With `None` the world begins where the drone stands.
     pub fn starts_at(&mut self, start: Option<Start>) {
         self.estimator.start = start;
         self.limits.start = start.map(|Start { place_m, heading_deg, .. }| {
@@ -159,7 +159,7 @@ impl VehicleConfig {
     /// Settings made before each flight, because other clients may have left different values.
     ///
     /// # Errors
-    /// [`SettingError`] if the limits cannot be encoded as drone settings.
+    /// [`SettingError`] if the ceiling, a limit of the drone or the video's bit rate is out of the range of its setting.
     pub fn drone_settings(&self) -> Result<Vec<Config>, SettingError> {
         let limits = &self.estimator.limits;
         // Options demo, time, raw_measures (for the battery's voltage) and vision_detect; and the flight recorder's.
@@ -251,7 +251,6 @@ pub struct Vehicle {
     life: Life,
     flight: Flight,
     navdata: Option<Navdata>,
-    /// Position by the drone's flight recorder.
     /// The flight recorder's last position, and when it arrived.
     gps: Option<(Duration, GpsFix)>,
     last_tick: Option<Duration>,
@@ -278,7 +277,7 @@ pub struct Vehicle {
 /// Why a vehicle cannot fly a plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CannotFly {
-    /// The limits cannot be encoded as drone settings.
+    /// See [`VehicleConfig::drone_settings`].
     #[error(transparent)]
     Setting(#[from] SettingError),
     /// The plan was refused.
@@ -303,7 +302,7 @@ impl Vehicle {
     /// A vehicle without a mission that has not received navdata yet.
     ///
     /// # Errors
-    /// [`SettingError`] if the limits cannot be encoded as drone settings.
+    /// As [`VehicleConfig::drone_settings`].
     pub fn new(config: &VehicleConfig) -> Result<Self, SettingError> {
         let settings = config.drone_settings()?;
         let session_config = SessionConfig {
@@ -408,7 +407,8 @@ impl Vehicle {
         !self.life.is_in_flight() && self.life.departure().is_none()
     }
 
-    /// Reasons why the vehicle cannot take off now; empty if it can.
+    /// Reasons why the vehicle cannot take off with a short mission, by the last check, which every tenth tick makes; empty if
+    /// it can, and before the first tick.
     pub fn readiness(&self) -> &[NotReady] {
         &self.readiness
     }

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 /// Longest name, in bytes.
 const LONGEST: usize = 16;
 
-/// Name of a vehicle, by which those of a program are told apart. It can be a part of the name of a file.
+/// Name of a vehicle, by which those of a program are told apart: 1 to 16 letters a to z, digits and hyphens, with a letter
+/// first, so that it can be a part of the name of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct VehicleName(ArrayString<LONGEST>);

@@ -12,7 +12,8 @@ use crate::plan::{Commands, FlightLimits, Plan, PlanError, TagUse};
 /// An order from an operator.
 ///
 /// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order but
-/// [`Camera`](Self::Camera) needs the controls, see [`Operator`](super::Operator).
+/// [`Camera`](Self::Camera), [`Present`](Self::Present) and [`Release`](Self::Release) needs the controls, see
+/// [`Operator`](super::Operator).
 ///
 /// In logs and in what programs send a plan and commands are texts: [`OrderText`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -69,20 +70,20 @@ pub enum OperatorOrder<P = Plan, C = Commands> {
     Release,
 }
 
-/// A place to fly to, in the estimator's frame; what is not given stays as it is.
+/// A place to fly to, in the world, whose origin is the start unless that is surveyed; what is not given stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Place {
-    /// Metres to the right of the start.
+    /// Metres to the right of the origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_m: Option<f64>,
-    /// Metres forward of the start.
+    /// Metres forward of the origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_m: Option<f64>,
     /// Metres above the floor of the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Degrees clockwise from the heading of the start.
+    /// Degrees clockwise from the world's forward axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_deg: Option<f64>,
 }
@@ -131,7 +132,7 @@ impl OrderText {
     /// Parses the texts in it.
     ///
     /// # Errors
-    /// [`PlanError`] if a plan cannot be flown, or there is no such command.
+    /// [`PlanError`] if a plan cannot be flown within `limits` and with these `tags`, or a command cannot be read.
     pub fn parse(
         self,
         limits: &FlightLimits,

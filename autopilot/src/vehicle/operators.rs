@@ -14,7 +14,7 @@ pub struct Operator {
     /// component.
     pub number: u16,
     /// Whether the operator is at the machine that runs the program. A local operator takes the controls from
-    /// a remote one, never the reverse; a `MAVLink` station takes them from nobody.
+    /// whoever has them; remote ones, `MAVLink` stations and the agent get them only if they are free or the agent has them.
     pub local: bool,
 }
 

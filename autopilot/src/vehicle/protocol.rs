@@ -115,13 +115,13 @@ impl Pending {
 }
 
 impl Vehicle {
-    /// Handles an input. `now` must not run backwards. What arrives takes effect in the next tick; poll the outputs after
-    /// each tick.
+    /// Handles an input. `now` is the time since the program started, and must not run backwards. What arrives takes effect in
+    /// the next tick; poll the outputs after each tick.
     ///
     /// # Errors
-    /// [`Refused`] for an order that is not accepted, a datagram that is damaged or old, and a neighbour that makes no sense or
-    /// is one too many. Nothing has changed then but
-    /// counts, except that a local operator's hold takes the controls from a remote one even if there is nothing to hold.
+    /// [`Refused`] for an order that is not accepted, a datagram that is damaged or old, and a neighbour that is not believed.
+    /// Nothing has changed then but counts, with two exceptions: an operator to whom the controls were due has them, whatever
+    /// else the order was refused for; and a neighbour that [`Jumps`](crate::separation::NotHeard::Jumps) is kept apart from.
     pub fn handle(&mut self, now: Duration, input: Input<'_>) -> Result<(), Refused> {
         self.handle_timed(now, input, |_| {})
     }

@@ -45,29 +45,29 @@ pub enum NotReady {
     Drone(&'static str),
     /// The drone sends its state, but no flight data.
     Silent,
-    /// The newest navdata are too old.
+    /// The newest navdata, or the newest plausible ones, are older than 500 ms.
     OldNavdata {
         /// Age of the newest navdata.
         age: Duration,
     },
-    /// The navdata rate is too low.
+    /// Fewer than 5 packets of navdata a second arrive.
     FewNavdata {
         /// Packets a second.
         hz: f64,
     },
     /// The navdata are not plausible.
     Distrust(Trust),
-    /// The altitude is not zero although the drone has landed.
+    /// The altitude is more than 0.6 m from zero although the drone has landed.
     NotOnFloor {
         /// Metres above the floor.
         altitude_m: f64,
     },
-    /// The drone does not stand level.
+    /// The drone does not stand level: it is tilted by more than 8°.
     Tilted {
         /// The larger of roll and pitch.
         deg: f64,
     },
-    /// The battery is too low for any flight.
+    /// The battery is too low for any flight: 20 % or less.
     EmptyBattery {
         /// Remaining charge.
         percent: u32,
@@ -78,12 +78,12 @@ pub enum NotReady {
         percent: u32,
         /// Expected duration of the mission.
         flight: Duration,
-        /// Charge required at take-off.
+        /// Charge required at take-off, in percent.
         needed: f64,
     },
     /// The drone is in the air: another pilot flies it.
     NotLanded,
-    /// The drone has not applied these settings.
+    /// The drone has not applied the settings of these keys, separated by commas.
     Settings(String),
     /// The drone's configuration could not be read back.
     SettingsNotRead,

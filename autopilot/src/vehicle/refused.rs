@@ -6,7 +6,7 @@ use super::Operator;
 use crate::mission::AppendError;
 use crate::separation::NotHeard;
 
-/// Why an order was refused. A refused order changes nothing.
+/// Why an input was refused. What it changes all the same is said at [`Vehicle::handle`](super::Vehicle::handle).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refused {

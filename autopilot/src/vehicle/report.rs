@@ -16,7 +16,7 @@ pub struct Waypoint {
     pub target: Pose,
     /// Estimated pose at the end of the stay.
     pub pose: Pose,
-    /// Standard deviation of that estimate on each horizontal axis.
+    /// Standard deviation of that estimate on the worse horizontal axis.
     pub horizontal_deviation_m: f64,
     /// What that deviation rests on.
     pub rests_on: RestsOn,
@@ -40,7 +40,7 @@ pub struct FlightReport {
     pub steps_done: usize,
     /// Targets reached, in order.
     pub waypoints: Vec<Waypoint>,
-    /// When the take-off was ordered.
+    /// When the take-off was ordered; `None` until it has ended.
     pub took_off_at: Option<Duration>,
     /// When the drone was on the ground again, or had cut its motors in the air; `None` while it flies, and if that was never
     /// heard.

@@ -36,18 +36,18 @@ pub struct Setpoint {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Horizontal {
-    /// This place, in metres in the estimator's frame.
+    /// This place, in metres in the world, whose origin is the start unless that is surveyed.
     Place {
-        /// Right of the start.
+        /// Right of the origin.
         x_m: f64,
-        /// Forward of the start.
+        /// Forward of the origin.
         y_m: f64,
     },
-    /// This velocity, in m/s in the estimator's frame.
+    /// This velocity, in m/s along the axes of the world.
     Velocity {
-        /// To the right of the start.
+        /// Along x, to the right.
         x_m_s: f64,
-        /// Forward of the start.
+        /// Along y, forward.
         y_m_s: f64,
     },
     /// This velocity, in m/s as seen from the drone.
@@ -65,7 +65,7 @@ pub enum Vertical {
     /// This height, in metres above the floor of the start.
     #[serde(rename = "height_m")]
     Height(f64),
-    /// This rate of climb, in m/s.
+    /// This rate of climb, in m/s, of which 0.75 m/s up or down are flown at most.
     #[serde(rename = "climb_m_s")]
     Climb(f64),
 }
@@ -76,10 +76,10 @@ pub enum Heading {
     /// As it is.
     #[serde(rename = "keep")]
     Keep,
-    /// This one, in degrees clockwise from that of the start.
+    /// This one, in degrees clockwise from the world's forward axis.
     #[serde(rename = "yaw_deg")]
     Yaw(f64),
-    /// This rate of turn, in degrees/s, clockwise.
+    /// This rate of turn, in degrees/s, clockwise, of which 60 degrees/s are flown at most.
     #[serde(rename = "turn_deg_s")]
     Turn(f64),
 }

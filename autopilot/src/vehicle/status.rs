@@ -21,7 +21,7 @@ pub struct Status {
     pub emergency: bool,
     /// Whether the drone is off the ground.
     pub airborne: bool,
-    /// Time since the take-off, or of the last flight; `None` before the first take-off has ended.
+    /// Time since the take-off was ordered, or of the last flight; `None` before the take-off has ended.
     pub flight_time: Option<Duration>,
     /// The camera whose video was ordered last from this drone; `None` if nobody has ordered one: it may show either.
     pub camera: Option<Camera>,
@@ -35,13 +35,13 @@ pub struct Status {
     pub manual: Option<ManualControl>,
     /// The operator who has the controls.
     pub controls: Option<Operator>,
-    /// Estimated pose; `None` until the drone has been heard.
+    /// Estimated pose in the world; `None` until the drone has been heard.
     pub pose: Option<Pose>,
-    /// Estimated velocity, right, forward and up; `None` until the drone has been heard.
+    /// Estimated velocity in the world, x, y and z; `None` until the drone has been heard.
     pub velocity_m_s: Option<[f64; 3]>,
     /// Turn rate, clockwise, in degrees per second: measured, and predicted since; `None` until the drone has been heard.
     pub turn_rate_deg_s: Option<f64>,
-    /// Current target pose.
+    /// Target pose of the position controller; `None` while it is not active.
     pub target: Option<Pose>,
     /// Distance to the target.
     pub distance_m: Option<f64>,
@@ -49,7 +49,7 @@ pub struct Status {
     pub battery_percent: Option<u32>,
     /// Voltage of the battery, if the drone tells it.
     pub battery_v: Option<f64>,
-    /// Standard deviation of the position on each horizontal axis. It grows with time, because velocity is
+    /// Standard deviation of the position on the worse horizontal axis. It grows with time, because velocity is
     /// integrated.
     pub horizontal_deviation_m: f64,
     /// What that deviation rests on.

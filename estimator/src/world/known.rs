@@ -9,9 +9,9 @@ use super::MAX_TAGS;
 /// A tag with a measured position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurveyedTag {
-    /// Position relative to the drone's start: right and forward.
+    /// Position in the world: (x, y).
     pub place_m: Vector2<f64>,
-    /// Direction of its pattern, clockwise from the drone's initial heading, if it was measured.
+    /// Direction of its pattern as a yaw in the world, if it was measured.
     pub heading_deg: Option<f64>,
 }
 
@@ -20,9 +20,9 @@ pub struct SurveyedTag {
 pub struct KnownTag {
     /// Number of the tag, counted from 1 in the order in which tags became known. It is not given to another tag.
     pub id: u32,
-    /// Position relative to the start: right and forward.
+    /// Position in the world: (x, y).
     pub place_m: Vector2<f64>,
-    /// Its direction, once it is known.
+    /// Direction of its pattern as a yaw in the world, once it is known.
     pub heading_deg: Option<f64>,
     /// Standard deviation of the position on the worse axis.
     pub deviation_m: f64,

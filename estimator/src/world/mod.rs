@@ -86,7 +86,7 @@ pub struct Sight {
     pub height: f64,
     /// Distance derived from the roundel's apparent size.
     pub distance_m: f64,
-    /// Orientation of the pattern in the picture; 270 when the drone is aligned with it.
+    /// Orientation of the pattern in the picture; 270 when the drone is aligned with it. On its sign see [`OrientationSign`].
     pub orientation_deg: f64,
 }
 
@@ -111,7 +111,7 @@ pub struct TagStatus {
     pub seen_ago: Option<Duration>,
     /// Whether the sign of orientations is known, so that tags correct the heading too.
     pub heading_held: bool,
-    /// Drift of the odometry: right and forward.
+    /// Drift of the odometry since the start: (x, y) in the world.
     pub drift_m: Vector2<f64>,
     /// Number of tags that were given up, because they and the odometry moved against each other.
     pub given_up: u32,

@@ -79,7 +79,7 @@ option! {
 }
 
 option! {
-    /// Motors and their control inputs. Front left, front right, rear right, rear left.
+    /// Motors and their control inputs. Arrays are in the order front left, front right, rear right, rear left.
     Pwm, 76 {
         /// 0 to 255.
         motors: [u8; 4] as [u8; 4],

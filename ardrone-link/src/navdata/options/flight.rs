@@ -12,7 +12,7 @@ option! {
         control_state_minor: u16 as u16,
         /// Major control state.
         control_state: ControlState as ControlMajor,
-        /// Remaining charge.
+        /// Remaining charge, 0 to 100.
         battery_percent: u32 as u32,
         /// Nose up positive.
         pitch_deg: f64 as Milli<f32>,

@@ -33,13 +33,13 @@ pub enum NavdataOption<'a> {
     RawMeasures(RawMeasures),
     /// Tag 3: accelerometers and gyroscopes, calibrated.
     PhysicalMeasures(PhysicalMeasures),
-    /// Tag 4
+    /// Tag 4: gyroscope readings at rest.
     GyroOffsets(GyroOffsets),
     /// Tag 5: attitude by the accelerometers alone.
     EulerAngles(EulerAngles),
     /// Tag 6: setpoints of the controller.
     References(References),
-    /// Tag 7
+    /// Tag 7: level corrections.
     Trims(Trims),
     /// Tag 8: a radio control's sticks.
     RcReferences(RcReferences),
@@ -47,7 +47,7 @@ pub enum NavdataOption<'a> {
     Pwm(Pwm),
     /// Tag 10: the altitude estimator.
     Altitude(Altitude),
-    /// Tag 11
+    /// Tag 11: translation by vision, raw.
     VisionRaw(VisionRaw),
     /// Tag 12: optical flow.
     VisionFlow(VisionFlow),
@@ -55,17 +55,17 @@ pub enum NavdataOption<'a> {
     Vision(Vision),
     /// Tag 14: duration of the vision algorithms.
     VisionPerformance(VisionPerformance),
-    /// Tag 15
+    /// Tag 15: points tracked by vision.
     TrackersSend(TrackersSend),
     /// Tag 16: detected roundels and tags.
     VisionDetect(VisionDetect),
-    /// Tag 17
+    /// Tag 17: watchdog of the controller.
     Watchdog(Watchdog),
-    /// Tag 18
+    /// Tag 18: a frame of the analogue converter.
     AdcDataFrame(AdcDataFrame),
     /// Tag 19: the live video.
     VideoStream(VideoStream),
-    /// Tag 20
+    /// Tag 20: Parrot's games.
     Games(Games),
     /// Tag 21: the barometer.
     PressureRaw(PressureRaw),
@@ -77,7 +77,7 @@ pub enum NavdataOption<'a> {
     KalmanPressure(KalmanPressure),
     /// Tag 25: the recorded video.
     HdVideoStream(HdVideoStream),
-    /// Tag 26
+    /// Tag 26: the radio link.
     Wifi(Wifi),
     /// Tag 27 in its 12-byte form.
     Zimmu3000(Zimmu3000),

@@ -105,19 +105,20 @@ option! {
     VisionDetect, 328 {
         /// Number of detections.
         count: u32 as u32,
-        /// Camera in the high half, kind of tag in the low half.
+        /// Camera in the high half, numbered as in `cameras`; kind of tag in the low half, 8 for the black and white oriented
+        /// roundel.
         kinds: [u32; 4] as [u32; 4],
         /// Centre, 0 to 1000 from left to right.
         x: [u32; 4] as [u32; 4],
         /// Centre, 0 to 1000 from top to bottom.
         y: [u32; 4] as [u32; 4],
-        /// 0 to 1000 of the picture.
+        /// Width of the box, in thousandths of the picture's width.
         widths: [u32; 4] as [u32; 4],
-        /// 0 to 1000 of the picture.
+        /// Height of the box, in thousandths of the picture's height.
         heights: [u32; 4] as [u32; 4],
         /// From the camera.
         distances_m: [f64; 4] as [Centi<u32>; 4],
-        /// Of oriented tags.
+        /// Of oriented tags, in the picture. Clients of the real drone contradict each other on the sign.
         orientations_deg: [f32; 4] as [f32; 4],
         /// Row by row.
         rotations: [[f32; 9]; 4] as [[f32; 9]; 4],
