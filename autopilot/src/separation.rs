@@ -75,6 +75,7 @@ impl Neighbour {
         let numbers = numbers.chain(self.claim.iter().flat_map(|claim| &claim.to_m));
         numbers.chain([&self.deviation_m, &self.separation_m]).all(|number| number.is_finite())
             && self.deviation_m >= 0.0
+            && self.separation_m >= 0.0
     }
 
     /// Where it is at a time if it went on for a while, and how far from there it can have got.
