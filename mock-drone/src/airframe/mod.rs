@@ -139,7 +139,7 @@ impl Airframe {
         self
     }
 
-    /// Weakens a motor to this fraction of its thrust, from 0 to 1, over a time.
+    /// Weakens a motor on the right to this fraction of its thrust, from 0 to 1, over a time.
     pub fn weaken_motor(&mut self, share: f64, within: Duration) {
         let motor = &mut self.motor;
         motor.goal = share.clamp(0.0, 1.0);
@@ -247,7 +247,7 @@ impl Airframe {
         self.floor_contacts
     }
 
-    /// Sink rate at the last contact with the floor.
+    /// Sink rate at the last contact with the floor, in any phase; `None` before the first.
     pub fn touch_down_m_s(&self) -> Option<f64> {
         self.touch_down_m_s
     }

@@ -16,7 +16,7 @@ const LEAST_DAMPING: f64 = 0.5;
 
 impl Profile {
     /// An airframe near this one: each parameter is multiplied by a number of its own, drawn by `seed` evenly from
-    /// `1 - share` to `1 + share` (0.4 for 40 %), and keeps its unit. Thrust and damping stay within what is a drone; a
+    /// `1 - share` to `1 + share` (0.4 for 40 %; at most 1), and keeps its unit. Thrust and damping stay within what is a drone; a
     /// thrust that carries the weight becomes one by the sine of the tilt, of which gravity is multiplied. What is absent
     /// here (a lag, a limit, quadratic drag) is absent there.
     #[must_use]
