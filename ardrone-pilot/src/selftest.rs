@@ -61,7 +61,7 @@ impl Sockets {
     /// the first signal that would end the process calls the examination off.
     ///
     /// # Errors
-    /// [`SelfTestError::Socket`] if the system has no sockets.
+    /// [`SelfTestError::Socket`] if the system has no sockets, or a signal cannot be awaited.
     pub fn open(
         ip: IpAddr,
         address: &DroneAddress,
