@@ -1,10 +1,12 @@
 //! The program `ardrone-pilot`: everything with I/O around the pure crate `autopilot`.
 //!
-//! - [`flight`] runs the vehicle in real time over UDP; [`runtime`] is for what is slow beside it. [`realtime`] requests real-time scheduling, and
-//!   [`timing`] measures the ticks.
+//! - [`flight`] runs the vehicle in real time over UDP; [`runtime`] is for what is slow beside it. [`realtime`] requests
+//!   real-time scheduling, and [`timing`] measures the ticks.
 //! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
 //!   `flights` finds the flights in it, [`plan_drawing`] draws a
 //!   plan.
+//! - [`fleet`] reads several vehicles with their plans, and flies them together on simulated drones.
+//! - [`selftest`] asks a drone on the ground what is assumed of its firmware.
 //! - [`video`] passes on what the camera sees.
 //! - [`drive`] runs the vehicle in simulated time with a simulated drone; [`simulation`] flies a plan so.
 //! - [`browser`] shows the flight in a browser, [`cli`] in the terminal, [`mavlink`] to ground stations and programs of others.

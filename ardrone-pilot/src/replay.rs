@@ -44,7 +44,7 @@ pub struct Replay {
     pub same_datagrams: usize,
     /// Ticks in which the agent chose other plans.
     pub other_plans: usize,
-    /// Largest difference of a stick, as a fraction.
+    /// Largest difference of a stick, as a fraction of its limit.
     pub largest_stick_difference: f64,
     /// Ticks at which the decisions begin to differ, at most [`Replay::MOST`].
     pub differences: Vec<Difference>,

@@ -57,11 +57,11 @@ pub struct Sockets {
 }
 
 impl Sockets {
-    /// Opens them for the drone at `ip`, with the ports of `address`. A TCP port that refuses is a finding, not an error. From now on
-    /// the first signal that would end the process calls the examination off.
+    /// Opens them for the drone at `ip`, with the ports of `address`. A TCP port that refuses is a finding, not an error. From
+    /// now on the first signal that would end the process calls the examination off.
     ///
     /// # Errors
-    /// [`SelfTestError::Socket`] if the system has no sockets.
+    /// [`SelfTestError::Socket`] if the system has no sockets, or a signal cannot be awaited.
     pub fn open(
         ip: IpAddr,
         address: &DroneAddress,

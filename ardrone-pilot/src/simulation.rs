@@ -22,11 +22,11 @@ const TRACK: Duration = Duration::from_millis(100);
 pub struct SimulatedFlight {
     /// How it ended; `None` if it did not within 20 minutes.
     pub outcome: Option<Outcome>,
-    /// Index of the last step that was begun.
+    /// Index of the last step that was begun, counted from 0; `None` if none was.
     pub step: Option<usize>,
     /// Time in the air.
     pub duration: Duration,
-    /// The charge that it took.
+    /// The charge that it took, as measured by voltage.
     pub battery_percent: f64,
     /// The true place of the drone every tenth of a second since the vehicle perceived that it left the ground, with
     /// this time.
@@ -35,8 +35,8 @@ pub struct SimulatedFlight {
     pub warnings: Vec<(Duration, FlightEvent)>,
 }
 
-/// A world that begins where the drone stands in the common frame, with the tags of the settings and of a plan, or with one below the start if there are none; without any
-/// if tags are not in use.
+/// A world that begins where the drone stands in the common frame, with the tags of the settings and of a plan, or with one
+/// below the start if there are none; without any if tags are not in use.
 pub fn world(config: &VehicleConfig, plan: Option<&Plan>) -> WorldConfig {
     let start = config.estimator.start.unwrap_or_default();
     let standing = Standing { place_m: start.place_m, heading_deg: start.heading_deg };

@@ -211,7 +211,8 @@ impl Histogram {
     }
 }
 
-/// Summary of a histogram.
+/// Summary of a histogram. Median and percentile are the upper edges of bins: of 10 µs for periods, 5 µs for lateness, and 1 µs
+/// for durations. Beyond the last bin (100 ms, 50 ms, 2 ms) they are at its edge, too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Quantiles {
     /// Number of values.
@@ -246,7 +247,7 @@ pub struct TickSummary {
     pub periods: Quantiles,
     /// Delay after the deadline.
     pub lateness: Quantiles,
-    /// Ticks that were late by less than 50, 100, 200, 500 µs, 1, 3, 10 ms.
+    /// Ticks that were late by less than 50, 100, 200, 500 µs, 1, 3, 10 ms; each count includes those before it.
     pub lateness_counts: [u64; LATENESS_EDGES.len()],
     /// Duration of each of [`Stage::ALL`].
     pub costs: [Quantiles; Stage::ALL.len()],

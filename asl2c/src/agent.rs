@@ -10,7 +10,7 @@ use translator::{ParsedConfiguration, TranslateError, parse_configuration};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// A file cannot be read.
+    /// A file cannot be read, has more than 16 MiB, or is not UTF-8.
     #[error("cannot read {path}: {source}")]
     File {
         /// Its path.
@@ -18,7 +18,7 @@ pub enum ReadError {
         /// The system's error.
         source: std::io::Error,
     },
-    /// The configuration has errors.
+    /// The configuration or the system has errors, or names a file that cannot be read.
     #[error(transparent)]
     Configuration(#[from] TranslateError),
 }

@@ -1,8 +1,9 @@
 //! The AgentSpeak compiler's command line, and every analysis that runs external programs.
 //!
-//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs compilers, SPIN
-//! and valgrind: [`verify()`] checks properties on a model, [`measure()`] measures the cost of the compiled
-//! C, and [`command_line`] is the program, with translation itself.
+//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs other programs: [`verify()`]
+//! checks properties on a model with SPIN, [`prove()`] on the C with CBMC, [`validate()`] compares the C with a second
+//! translation, [`cover()`] tests it, [`measure()`] and [`on_target()`] measure its cost, [`certify()`] does all of it. A
+//! [`Session`] runs an agent by the interpreter, and [`command_line`] is the program, with translation itself.
 //!
 //! ```no_run
 //! let agent = asl2c::Agent::read("pilot.conf".as_ref())?;

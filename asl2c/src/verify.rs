@@ -37,8 +37,8 @@ pub struct Checked {
 /// Runs `spin` and `cc`, one search per core, in a temporary folder.
 ///
 /// # Errors
-/// If there is no such property, or a program fails. A search that does not finish is not an error but a
-/// [`Verdict`].
+/// If there is no such property or none at all, or a program fails. A search that does not finish, because of its limits of
+/// depth or memory (2 GB), is not an error but a [`Verdict`].
 pub fn verify(model: &Model, only: &[&str]) -> Result<Vec<Checked>, VerifyError> {
     if model.properties.is_empty() {
         return Err(VerifyError::Nothing);
@@ -47,7 +47,8 @@ pub fn verify(model: &Model, only: &[&str]) -> Result<Vec<Checked>, VerifyError>
     Ok(checked.into_iter().map(|(property, verdict)| Checked { property, verdict }).collect())
 }
 
-/// Whether a property fails in some environment. Faster than [`verify`], which also shows the shortest way there.
+/// Whether a property is found to fail in some environment. False does not say that it holds: the search may not have
+/// finished. Faster than [`verify`], which also shows the shortest way there.
 ///
 /// # Errors
 /// If there is no such property, or a program fails.

@@ -85,8 +85,8 @@ pub(crate) struct New<'a> {
     pub(crate) help: &'static str,
 }
 
-/// Writes files into a folder, which is made if it is missing; all or none: each is first written completely under another name, and if one
-/// cannot be moved to its place the others are restored. Then the `stale` ones are removed.
+/// Writes files into a folder, which is made if it is missing; all or none: each is first written completely under another name,
+/// and if one cannot be moved to its place the others are restored. Then the `stale` ones are removed.
 pub(crate) fn write(folder: &Path, files: &[New<'_>], stale: &[New<'_>]) -> Result<(), WriteError> {
     let mut removed = Vec::new();
     for file in stale {

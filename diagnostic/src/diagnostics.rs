@@ -48,7 +48,7 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The diagnostics with their places, in the order of the list.
+    /// The diagnostics with their places, in the order of the list. A source that is not there has no name and no text.
     pub fn located(&self) -> impl ExactSizeIterator<Item = Located<'_>> {
         self.list.iter().map(|diagnostic| {
             let source = self.sources.get(diagnostic.source);

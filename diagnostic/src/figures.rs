@@ -10,8 +10,10 @@ const TINY: f64 = 1e-3;
 /// A number that is no longer is shown as it is.
 const LONGEST: usize = 8;
 
-/// A number in a message to a person: with a few significant digits, however large it is. A precision (`{:.2}`) is the number
-/// of decimals of one that is neither huge nor, without a precision, tiny.
+/// A number in a message to a person: with four significant digits, or all if they are at most eight characters. From a
+/// million on, and below a thousandth, it has an exponent, with three digits.
+///
+/// With a precision (`{:.2}`) it has so many decimals, but still an exponent from a million on.
 ///
 /// ```
 /// use diagnostic::Figures;

@@ -65,7 +65,8 @@ impl Judged {
 /// that the generated ones include: their macros must not have names that the C uses.
 ///
 /// # Errors
-/// If something in it is not of the language: the first one, with its place.
+/// If something in it is not of the language: the first one, with its place. [`Rule::Translation`] if the translation that
+/// the comparison has is not of the language itself.
 pub fn judge<'a>(
     comparison: &Comparison,
     text: &str,

@@ -81,7 +81,7 @@ pub enum Rule {
     /// The agent's state is not declared.
     #[error("the agent's state must be declared as it was generated")]
     State,
-    /// An array outside of a `static` declaration.
+    /// An array outside of a `static` declaration, or whose length is not a number from 1 to 1024.
     #[error("only static objects can be arrays, with a number as length")]
     Array,
     /// A pointer that is a local or static variable, or a result.
@@ -108,7 +108,7 @@ pub enum Rule {
     /// A macro has the name.
     #[error("an included header defines a macro of this name, or could; rename it")]
     Macro,
-    /// A function that is neither `static` nor of the interface.
+    /// A function that is neither `static` nor of the interface, or one of the interface that is `static` or without a body.
     #[error("functions must be static, unless the generated header declares them")]
     Static,
     /// An interface function with another signature.
@@ -125,7 +125,7 @@ pub enum Rule {
     /// A function that calls itself.
     #[error("it calls itself, directly or through others")]
     Recursion,
-    /// A long chain of calls.
+    /// A chain of more than 200 calls inside each other.
     #[error("it is the begin of a chain of more than 200 calls inside each other")]
     Calls,
     /// A function without a result at some end.

@@ -111,7 +111,7 @@ pub enum FrameError {
     },
 }
 
-/// The frames of a datagram, in order. A damaged frame hides no later one, unless there is too much that is wrong.
+/// The frames of a datagram, in order. A damaged frame hides no later one, but behind 32 errors the rest is dropped.
 ///
 /// A payload that is shorter than its message is filled up with zeros; one that is longer has extension fields that the
 /// dialect does not know, and these are ignored.

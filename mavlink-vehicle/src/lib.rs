@@ -1,7 +1,8 @@
 //! A MAVLink vehicle, without input or output.
 //!
-//! [`frames`] finds the frames of a datagram, [`Encoder`] writes ours, and [`Signing`] signs these and judges the
-//! signatures of others. [`dialect`] has the messages; it is generated from `dialect/pilot.xml`.
+//! [`MavlinkVehicle`] is the vehicle as its clients see it. [`frames`] finds the frames of a datagram, [`Encoder`] writes
+//! ours, and [`Signing`] signs these and judges the signatures of others. [`dialect`] has the messages; it is generated from
+//! `dialect/pilot.xml`.
 #![forbid(unsafe_code)]
 
 #[allow(

@@ -50,7 +50,7 @@ impl Default for Origin {
 /// Why a place cannot be the origin.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum OriginError {
-    /// At a pole, where east is nowhere, or beyond it.
+    /// Within a degree of a pole, where east is nowhere, or beyond it.
     #[error("the origin's latitude of {0}° is not between -89 and 89")]
     Latitude(f64),
     /// Not a longitude.
@@ -59,7 +59,7 @@ pub enum OriginError {
     /// Not on Earth.
     #[error("the origin's altitude of {0} m is not between -500 and 9000")]
     Altitude(f64),
-    /// Not a number.
+    /// More than a turn, or not a number.
     #[error("the origin's heading of {0}° is not between -360 and 360")]
     Heading(f64),
 }

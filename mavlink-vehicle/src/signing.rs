@@ -30,7 +30,7 @@ pub struct Key([u8; KEY_BYTES]);
 /// Why a text is not a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum KeyError {
-    /// Neither 64 digits, nor all of them hexadecimal.
+    /// Not 64 digits, or one that is not hexadecimal.
     #[error("a key is written as 64 hexadecimal digits; for anything else give a pass-phrase")]
     Digits,
     /// Nothing at all, or only spaces.
@@ -47,7 +47,7 @@ impl Key {
     /// The key of a pass-phrase: its SHA-256, as in QGroundControl and MAVProxy.
     ///
     /// # Errors
-    /// [`KeyError::Empty`].
+    /// [`KeyError::Empty`] if it has nothing but spaces.
     pub fn from_pass_phrase(text: &str) -> Result<Self, KeyError> {
         if text.trim().is_empty() {
             return Err(KeyError::Empty);
@@ -58,7 +58,7 @@ impl Key {
     /// A key in hexadecimal digits.
     ///
     /// # Errors
-    /// [`KeyError::Digits`] unless these are 64.
+    /// [`KeyError::Digits`] unless these are 64, of either case, and nothing else.
     pub fn from_hexadecimal(text: &str) -> Result<Self, KeyError> {
         let digit = |digit: u8| char::from(digit).to_digit(16).and_then(|d| u8::try_from(d).ok());
         let (pairs, rest) = text.as_bytes().as_chunks::<2>();
@@ -140,7 +140,7 @@ pub enum Refusal {
         /// Its component.
         component: u8,
     },
-    /// The first frame of its stream, and old.
+    /// The first frame of its stream, and more than a minute behind our clock or the latest valid signature.
     #[error(
         "system {system}, component {component} signs with a time that is {behind_s} s old; set its clock"
     )]
@@ -149,10 +149,10 @@ pub enum Refusal {
         system: u8,
         /// Its component.
         component: u8,
-        /// How old, in seconds.
+        /// How far it is behind, in seconds.
         behind_s: u64,
     },
-    /// From a time that is not yet.
+    /// More than a day ahead of our clock.
     #[error(
         "system {system}, component {component} signs with a time that is {ahead_s} s ahead; set its clock or this one"
     )]
@@ -164,7 +164,7 @@ pub enum Refusal {
         /// How much ahead of our clock, in seconds.
         ahead_s: u64,
     },
-    /// As many streams as are possible have been heard of in the last minute.
+    /// A new stream, while 16 others have been heard of in the last minute.
     #[error("more than {MOST_STREAMS} senders of signed frames; disconnect one and wait a minute")]
     TooManyStreams,
 }
@@ -185,7 +185,7 @@ impl Stream {
     }
 }
 
-/// Signs our frames and judges the signatures of others.
+/// Signs our frames and judges the signatures of others. A stream is what one component signs on one link.
 #[derive(Debug)]
 pub struct Signing {
     key: Key,

@@ -57,8 +57,8 @@ pub(crate) struct Wash {
 const ROTOR_RADIUS_M: f64 = 0.1;
 /// Of all four.
 const DISC_AREA_M2: f64 = 4.0 * std::f64::consts::PI * ROTOR_RADIUS_M * ROTOR_RADIUS_M;
-/// A turbulent round jet's half-width grows by 0.1 of the distance (Pope, *Turbulent Flows*, section 5.1); its Gaussian falls to 1/e
-/// at 1.2 of that.
+/// A turbulent round jet's half-width grows by 0.1 of the distance (Pope, *Turbulent Flows*, section 5.1); its Gaussian falls to
+/// 1/e at 1.2 of that.
 const SPREADING: f64 = 0.12;
 /// Standard deviation of the turbulence on each axis, as a share of the speed: about what is measured on a jet's axis (Hussein,
 /// Capp and George 1994).
@@ -75,16 +75,16 @@ fn induced_m_s() -> f64 {
 
 /// The mean flow at a place, relative to the drone that hovers above it (right, forward, up); none beside and above.
 ///
-/// Momentum theory (Leishman, *Principles of Helicopter Aerodynamics*, section 2.2) gives the speed `v = sqrt(m g / (2 rho A))` at the
-/// rotors; below them the wake contracts, and on the axis of a rotor of radius R the air gets faster as
+/// Momentum theory (Leishman, *Principles of Helicopter Aerodynamics*, section 2.2) gives the speed `v = sqrt(m g / (2 rho A))`
+/// at the rotors; below them the wake contracts, and on the axis of a rotor of radius R the air gets faster as
 /// `v (1 + z / sqrt(z² + R²))`, up to `2 v`. The wakes of the four rotors merge and spread as one turbulent jet, whose speed is a
 /// Gaussian across, `exp(-(r / s)²)`, of width `s = s0 + 0.12 z`. It keeps its momentum, which is the weight of the drone:
-/// `rho V² pi s² / 2 = m g`; with `V = 2 v` at the rotors, `s0 = sqrt(A / pi)` = 0.2 m, and below `V = 2 v s0 / s`. As the jet widens,
-/// the air moves outwards by `0.12 r / s` of its speed. The form is that of Jain, Fortmuller, Byun, Mäkiharju and Mueller,
+/// `rho V² pi s² / 2 = m g`; with `V = 2 v` at the rotors, `s0 = sqrt(A / pi)` = 0.2 m, and below `V = 2 v s0 / s`. As the jet
+/// widens, the air moves outwards by `0.12 r / s` of its speed. The form is that of Jain, Fortmuller, Byun, Mäkiharju and Mueller,
 /// *Modeling of aerodynamic disturbances for proximity flight of multirotors* (2019).
 ///
-/// 1 m below that is 4.6 m/s, 2 m below 3.3 m/s, and a twentieth of it 0.55 m and 0.76 m beside the axis. That a wake lags behind, and
-/// trails a drone that flies fast, is not modelled, nor how it spreads on the floor.
+/// 1 m below that is 4.6 m/s, 2 m below 3.3 m/s, and a twentieth of it 0.55 m and 0.76 m beside the axis. That a wake lags
+/// behind, and trails a drone that flies fast, is not modelled, nor how it spreads on the floor.
 fn wash_of(from_above_m: Vector3<f64>) -> Option<Wash> {
     let below_m = -from_above_m.z;
     let across_m = from_above_m.xy();
@@ -154,8 +154,8 @@ impl Others {
 
 /// Drones nearer to each other hear each other's ultrasound (Parrot's developer guide).
 const ULTRASOUND_M: f64 = 3.0;
-/// Share of the pulses of a drone right beside that is loud enough: it sends them down, and what is heard of them is what the floor
-/// scatters. Chosen, with the linear fall to nothing at 3 m: nobody has published a measurement.
+/// Share of the pulses of a drone right beside that is loud enough: it sends them down, and what is heard of them is what the
+/// floor scatters. Chosen, with the linear fall to nothing at 3 m: nobody has published a measurement.
 const LOUD: f64 = 0.3;
 /// Height from which an echo takes as long as the time between two pulses: 343 m/s, there and back, 25 times a second.
 const PULSE_INTERVAL_M: f64 = 343.0 / 2.0 / 25.0;
@@ -166,9 +166,10 @@ const MISSING: f64 = 0.25;
 
 /// What the pulses of others make of heights.
 ///
-/// A pulse of another drone comes at any time of the interval between two pulses. The sensor takes the first one it hears, so that
-/// it is taken for the own echo if it is loud enough and comes before that: the more often the nearer the other one is and the higher
-/// the drone flies, 1 m beside another one at 1.5 m once in 23 measurements. It then is too low by anything, or missing.
+/// A pulse of another drone comes at any time of the interval between two pulses. The sensor takes the first one it hears, so
+/// that it is taken for the own echo if it is loud enough and comes before that: the more often the nearer the other one is and
+/// the higher the drone flies, 1 m beside another one at 1.5 m once in 23 measurements. It then is too low by anything, or
+/// missing.
 #[derive(Debug, Clone)]
 pub(crate) struct ForeignPulses {
     /// See [`Others::heard`].

@@ -53,7 +53,7 @@ pub enum OrientationSign {
 /// Errors of the bottom camera and of the detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraModel {
-    /// Maximum relative error of the focal length.
+    /// Maximum relative error of the focal length, 0.03 for 3 %.
     pub focal_error: f64,
     /// Maximum error of the picture's centre, in thousandths of the picture.
     pub centre_error_units: f64,
@@ -69,9 +69,9 @@ pub struct CameraModel {
     pub noise_units: f64,
     /// White noise of a reported orientation.
     pub orientation_noise_deg: f64,
-    /// Fraction of the pictures in which a complete roundel is detected.
+    /// Fraction of the pictures in which a complete roundel is detected, from 0 to 1; it falls to none from 3 m to 4.5 m.
     pub seen: f64,
-    /// Fraction of the pictures with a false detection.
+    /// Fraction of the pictures with a false detection, from 0 to 1.
     pub false_sights: f64,
     /// Sign of the orientations.
     pub orientation: OrientationSign,

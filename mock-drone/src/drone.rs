@@ -42,13 +42,13 @@ pub struct DroneConfig {
     pub flies_at_m: Option<f64>,
     /// Wind towards (right, forward).
     pub wind_m_s: Vector2<f64>,
-    /// Standard deviation of the gusts.
+    /// Standard deviation of the gusts on each axis.
     pub gusts_m_s: f64,
     /// Content of option 27.
     pub tag_27: Tag27,
     /// Standard deviation of its GPS on each axis. The error stays for about a minute.
     pub gps_error_m: f64,
-    /// Maximum error of the level reference, unknown to the pilot.
+    /// Maximum error of the level reference in roll and in pitch, unknown to the pilot.
     pub trim_error_deg: f64,
     /// In which ways its firmware is not as it is assumed to be.
     pub lies: Lies,
@@ -78,9 +78,9 @@ impl Default for DroneConfig {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Truth {
-    /// The drone's own time.
+    /// Time since the start of the simulation, up to which the drone is simulated; a restart does not reset it.
     pub time: Duration,
-    /// When it was last switched on.
+    /// When it was last switched on; zero at the start.
     pub switched_on: Duration,
     /// Right, forward, up from the start.
     pub position_m: Vector3<f64>,
@@ -95,7 +95,7 @@ pub struct Truth {
     pub odometry_m: Vector2<f64>,
     /// Motion command that the firmware executes in flight.
     pub motion: Motion,
-    /// When the firmware last took a command.
+    /// When the firmware last took a command; `None` if it has taken none since it was switched on.
     pub heard_at: Option<Duration>,
     /// How often the level reference was set in flight, which spoils it.
     pub trims_in_flight: u32,
@@ -103,7 +103,7 @@ pub struct Truth {
     pub battery_percent: f64,
     /// Number of contacts with the floor during flight.
     pub floor_contacts: u32,
-    /// Sink rate at the last contact with the floor, in any phase.
+    /// Sink rate at the last contact with the floor, in any phase; `None` before the first.
     pub touch_down_m_s: Option<f64>,
 }
 
@@ -234,7 +234,8 @@ impl Drone {
         }
     }
 
-    /// Advances to `now`, on the drone's own clock from its start.
+    /// Advances to `now`, the time since the start of the simulation, by whole steps of [`STEP_S`]; an earlier time changes
+    /// nothing.
     pub fn advance(&mut self, now: Duration) {
         while self.time() + STEP <= now {
             self.steps += 1;
@@ -274,7 +275,7 @@ impl Drone {
         STEP * u32::try_from(self.steps).unwrap_or(u32::MAX)
     }
 
-    /// Processes a datagram of the AT port. Returns its decoding errors.
+    /// Processes a datagram of the AT port. Returns its decoding errors. For a second after a restart nothing is heard.
     pub fn handle_at(&mut self, now: Duration, datagram: &[u8]) -> Vec<DecodeError> {
         self.advance(now);
         if self.is_booting() { Vec::new() } else { self.firmware.handle_at(now, datagram) }
@@ -347,7 +348,7 @@ impl Drone {
         }
     }
 
-    /// Bit rate of the video that the configuration asks for.
+    /// Bit rate of the video that the configuration asks for, in kbit/s, from 250 to 4000.
     #[cfg(feature = "video")]
     pub fn video_kbit_s(&self) -> u32 {
         self.firmware.video_kbit_s()

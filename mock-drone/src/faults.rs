@@ -74,7 +74,7 @@ impl Quantity {
     }
 }
 
-/// Kind of a sensor fault.
+/// Kind of a sensor fault. Numbers are in the unit of the [`Quantity`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SensorFault {
     /// Stays at its last value.

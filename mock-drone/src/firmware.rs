@@ -316,7 +316,7 @@ impl Firmware {
         self.hold = Hold::default();
     }
 
-    /// One physics step. Returns the command to the motors.
+    /// One physics step of [`STEP_S`]. Returns the command to the motors.
     pub fn step(&mut self, now: Duration, airframe: &Airframe) -> Thrust {
         let silence = self.silence(now);
         if silence.is_some_and(|silence| silence >= WATCHDOG) {
@@ -455,7 +455,7 @@ impl Firmware {
         self.trims_in_flight
     }
 
-    /// Time of the last command.
+    /// Time of the last command that was taken; `None` before the first.
     pub fn last_command(&self) -> Option<Duration> {
         self.last_command
     }
@@ -470,7 +470,7 @@ impl Firmware {
         self.phase
     }
 
-    /// Whether the client has been silent long enough for the link to count as lost.
+    /// Whether the client has been silent for long enough, 2 s, for the link to count as lost.
     pub fn link_is_lost(&self, now: Duration) -> bool {
         self.silence(now).is_some_and(|silence| silence >= self.patience())
     }
@@ -500,7 +500,7 @@ impl Firmware {
         self.configuration.is_set("general:navdata_demo")
     }
 
-    /// Whether option `tag` is requested in demo mode.
+    /// Whether option `tag`, at most 31, is requested in demo mode.
     pub fn wants_option(&self, tag: u16) -> bool {
         if self.lies.contains(Lies::FIXED_OPTIONS) {
             return matches!(tag, 0 | 16);

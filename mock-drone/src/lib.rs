@@ -7,8 +7,8 @@
 //! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
 //! - [`Lies`]: how a firmware may differ from what is assumed of it.
 //! - [`World`]: a drone and its radio link, with datagrams that are late or lost, and faults over time.
-//! - [`World::meet`]: other drones in the same air, as [`Presence`] describes them: the wash below a drone is felt, and two drones
-//!   within 3 m whose ultrasound has the same frequency disturb each other's heights.
+//! - [`World::meet`]: other drones in the same air, as [`Presence`] describes them: the wash below a drone is felt, and two
+//!   drones within 3 m whose ultrasound has the same frequency disturb each other's heights.
 #![cfg_attr(feature = "server", doc = "- [`server`]: the drone on real sockets.")]
 #![cfg_attr(feature = "cli", doc = "- [`command_line`]: the program.")]
 //!

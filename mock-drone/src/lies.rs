@@ -25,7 +25,7 @@ bitflags! {
         const STUCK_WATCHDOG = 1 << 7;
         /// A link counts as lost after ten seconds.
         const PATIENT_LINK = 1 << 8;
-        /// After a lost link nothing is answered any more.
+        /// After a lost link no wake-up is answered, until a command arrives.
         const DEAF_AFTER_LOSS = 1 << 9;
         /// The configuration is not sent.
         const NO_CONFIGURATION = 1 << 10;
@@ -45,7 +45,7 @@ bitflags! {
         const SHORT_OPTION = 1 << 17;
         /// Each tenth packet has a wrong checksum.
         const WRONG_CHECKSUM = 1 << 18;
-        /// Each tenth packet has the number of the one before.
+        /// A packet of each tenth physics step, in demo mode about each tenth packet, has the number of the one before.
         const REPEATED_NUMBER = 1 << 19;
         /// The state says that the drone flies.
         const CLAIMS_TO_FLY = 1 << 20;
@@ -57,7 +57,7 @@ bitflags! {
         const GRAVITY_UP = 1 << 23;
         /// Pitch has the other sign, and is 10° too great.
         const TILTED = 1 << 24;
-        /// A velocity of 0.5 m/s at rest.
+        /// The velocity is 0.5 m/s too great towards the right, also at rest.
         const MOVES_AT_REST = 1 << 25;
         /// The headers of the video name another codec.
         const OTHER_CODEC = 1 << 26;
@@ -71,7 +71,7 @@ bitflags! {
 }
 
 impl Lies {
-    /// The lie with this name, as `fixed-ceiling`.
+    /// The lie with this name, as `fixed-ceiling`; `None` if there is none.
     pub fn named(name: &str) -> Option<Self> {
         Self::from_name(&name.to_uppercase().replace('-', "_"))
     }

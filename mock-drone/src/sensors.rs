@@ -14,7 +14,7 @@ use crate::airframe::{Airframe, STEP_S, world_from_body};
 /// Errors of the sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorModel {
-    /// White noise of each sample of the optical flow.
+    /// White noise of each sample of the optical flow: the standard deviation on each axis.
     pub flow_noise_m_s: f64,
     /// Time constant of the flow's own filter.
     pub flow_filter: Duration,
@@ -22,13 +22,13 @@ pub struct SensorModel {
     pub flow_delay: Duration,
     /// Initial standard deviation of the flow's bias.
     pub flow_bias_m_s: f64,
-    /// Random walk of the bias, per root second.
+    /// Random walk of the bias, in m/s per square root of a second.
     pub flow_bias_walk_m_s: f64,
     /// Scale error of the flow, 0.03 for 3 %.
     pub flow_scale_error: f64,
     /// White noise of each sample of the altitude.
     pub altitude_noise_m: f64,
-    /// Fraction of ultrasound echoes that are wrong.
+    /// Fraction of ultrasound echoes that are wrong, from 0 to 1: then the altitude is anything from 0.3 m to 1.2 m.
     pub bad_echoes: f64,
     /// White noise of pitch and roll.
     pub attitude_noise_deg: f64,
@@ -116,7 +116,7 @@ impl SensorModel {
 pub struct Reading {
     /// (right, forward) in the levelled body frame.
     pub velocity_m_s: Vector2<f64>,
-    /// Above the ground.
+    /// Above the floor, not below 0.
     pub altitude_m: f64,
     /// Nose up.
     pub pitch_deg: f64,

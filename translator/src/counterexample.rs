@@ -10,20 +10,21 @@ use crate::program::{Program, trigger_text};
 use crate::syntax::ast::{Name, Performative};
 use crate::system::System;
 
-/// A step of a counterexample, in the agent's terms.
+/// A line of a counterexample, or of the interpreter's log, in the agent's terms.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct CounterexampleStep {
-    /// Nesting depth: 0 for the environment and for steps, 1 for plans, 2 for the actions of plans.
+    /// Nesting depth: 0 for the environment and for steps, 1 for events and plans, 2 for the actions of plans. In the
+    /// interpreter's log, what a formula's plans do is below the formula: 3, 4, and so on.
     pub depth: usize,
-    /// The line of the agent's source, if there is one.
+    /// The line of the agent's source, counted from 1, if there is one.
     pub line: Option<usize>,
     /// Description.
     pub text: String,
 }
 
 impl CounterexampleStep {
-    /// A step of a counterexample.
+    /// A line with these parts.
     pub fn new(depth: usize, line: Option<usize>, text: String) -> Self {
         Self { depth, line, text }
     }
@@ -50,11 +51,11 @@ pub enum Move {
     Arrives(UnderWay),
     /// A message is lost.
     IsLost(UnderWay),
-    /// An agent makes its step; the first and last lines of the plans that it chooses.
+    /// An agent makes its step; the first and last lines of the plans that it chooses, counted from 1.
     Step(usize, Vec<(usize, usize)>),
 }
 
-/// A message that is under way.
+/// A message that is under way. Sender and receiver are indices into [`System::members`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnderWay {
     /// The sender.

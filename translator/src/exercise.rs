@@ -11,7 +11,7 @@ pub const EXERCISE: &str = "exercise.c";
 ///
 /// The calls depend only on the seed ([`EXERCISE_SEED`]) and the number of steps ([`EXERCISE_STEPS`]), so two
 /// machines on which the C does the same leave the same trace: each call in either direction with all values.
-/// The platform defines `void asl2c_trace_text(const char *)` and calls `exercise()`.
+/// The platform defines `void asl2c_trace_text(const char *)` and calls `asl2c_exercise()`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Exercise {

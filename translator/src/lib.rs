@@ -136,7 +136,8 @@ pub struct Translation {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GeneratedFile {
-    /// Its name as the configuration gives it, relative to the output folder.
+    /// Its name as the configuration gives it, relative to the output folder, with an ending for a matrix; a fixed name if
+    /// no setting names it.
     pub name: String,
     /// Its text.
     pub text: String,
@@ -151,7 +152,8 @@ pub enum TranslateError {
     /// The configuration or the agent has errors, possibly followed by warnings.
     #[error("{0}")]
     Refused(Diagnostics),
-    /// A proof or a random run would need arbitrary values of a type that only the environment can create.
+    /// A proof would need arbitrary values of a type other than numbers and `bool`; or a random run, or tests, would have to
+    /// create values of a type that only the environment can create.
     #[error(
         "cannot create arbitrary values of type `{name}`, which a proof or random run of this agent needs"
     )]
@@ -187,8 +189,8 @@ pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration
 /// Translates the agent in `agent_text`, the content of the configuration's input file.
 ///
 /// # Errors
-/// [`TranslateError::Refused`] with all errors in both texts. Nothing is produced then: the translator
-/// refuses what it cannot translate.
+/// [`TranslateError::Refused`] with all errors in both texts; if the agent's cannot be parsed, with those of its syntax and
+/// of the Rust bindings. Nothing is produced then: the translator refuses what it cannot translate.
 pub fn translate(
     configuration: &ParsedConfiguration,
     agent_text: &str,
@@ -229,8 +231,8 @@ pub fn trace_rows(
 /// in any state.
 ///
 /// # Errors
-/// As [`translate`], and if an arbitrary value of a type would be needed that only the environment can
-/// create.
+/// As [`translate`], and [`TranslateError::Unprovable`] if the environment passes or returns strings, structs or values of
+/// a type that the translator does not know.
 pub fn obligations(
     configuration: &ParsedConfiguration,
     agent_text: &str,
@@ -301,8 +303,8 @@ pub fn comparison_after(
 /// A program that makes random calls of the agent's C, as it is translated, and traces them.
 ///
 /// # Errors
-/// As [`translate`], and if an arbitrary value of a type would be needed that only the environment can
-/// create.
+/// As [`translate`], and [`TranslateError::Unprovable`] if the environment passes or returns values of a type that only it
+/// can create.
 pub fn exercise(
     configuration: &ParsedConfiguration,
     agent_text: &str,
@@ -324,11 +326,11 @@ pub fn exercise(
 
 /// A program that runs tests of the agent's C, as it is translated, and traces them.
 ///
-/// The trace of a test is `# NUMBER`, each call in either direction with all values (numbers by their bits, see
-/// [`traced`]), and at its end the answers of `can_add_event()` and of the counters.
+/// The trace of a test is `# NUMBER`, each call in either direction with all values (floating-point numbers by their bits,
+/// see [`traced`]), and at its end the answers of `can_add_event()` and of the counters.
 ///
 /// # Errors
-/// As [`translate`], and if a function's result would be of a type that only the environment can create.
+/// As [`exercise()`].
 pub fn scripted(
     configuration: &ParsedConfiguration,
     agent_text: &str,

@@ -111,14 +111,14 @@ pub(crate) fn is_c(name: &str) -> bool {
     is_c_word(name) || is_library(name)
 }
 
-/// Whether the name has a meaning in any position: a keyword, or a macro of the headers that generated C
-/// includes.
+/// Whether the name has a meaning in any position, or is reserved in any: a keyword, a type or macro of the headers that
+/// generated C includes, or a name that begins with an underscore.
 pub fn is_c_word(name: &str) -> bool {
     let is_in = |words: &str| words.split_ascii_whitespace().any(|word| word == name);
     name.starts_with('_') || is_in(WORDS) || is_integer_type(name) || is_integer_macro(name)
 }
 
-/// Whether a function of the library has the name.
+/// Whether a function or stream of the library has the name, or a function that compilers know.
 pub fn is_library(name: &str) -> bool {
     let is_in = |words: &str, name: &str| words.split_ascii_whitespace().any(|word| word == name);
     let variant =

@@ -64,7 +64,8 @@ pub enum TypeKind {
 }
 
 impl CType {
-    /// The type named `name`.
+    /// The type named `name`, with single blanks between its words. Other names than those of C's numbers, `bool` and
+    /// strings are [`TypeKind::Opaque`]: only the configuration knows its structs.
     pub fn named(name: &str) -> Self {
         let kind = match name {
             "void" => TypeKind::Void,
@@ -104,7 +105,7 @@ impl CType {
         }
     }
 
-    /// Whether two values can be compared.
+    /// Whether two values can be compared with `==`.
     pub fn has_equality(&self) -> bool {
         !matches!(self.kind, TypeKind::Void | TypeKind::Text | TypeKind::Opaque)
     }
@@ -124,7 +125,7 @@ impl CType {
         self.is_float() || (self.integer_bits().is_some() && !self.is_peer())
     }
 
-    /// The width of an integer type, and whether it has a sign.
+    /// The width of an integer type in bits, and whether it has a sign; `None` for other types.
     pub fn integer_bits(&self) -> Option<(u32, bool)> {
         match self.kind {
             TypeKind::Signed { bits } => Some((bits, true)),
@@ -133,7 +134,7 @@ impl CType {
         }
     }
 
-    /// The lowest and the highest value of an integer type.
+    /// The lowest and the highest value of an integer type; `None` for other types.
     pub fn integer_range(&self) -> Option<(i128, i128)> {
         let (bits, signed) = self.integer_bits()?;
         Some(if signed {
@@ -143,7 +144,7 @@ impl CType {
         })
     }
 
-    /// The zero constant of the type, if it is known.
+    /// The zero constant of the type, or the initializer that makes it; `None` for `void`.
     pub fn zero(&self) -> Option<&'static str> {
         match self.kind {
             TypeKind::Bool => Some("false"),
@@ -163,7 +164,7 @@ impl CType {
         matches!(self.kind, TypeKind::Float32 | TypeKind::Float64)
     }
 
-    /// The Rust type with the same representation, if the translator knows one.
+    /// The Rust type of a number or `bool`, with the same representation; `None` for other types.
     pub fn rust_name(&self) -> Option<&'static str> {
         match self.kind {
             TypeKind::Bool => Some("bool"),

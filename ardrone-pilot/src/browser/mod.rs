@@ -2,8 +2,8 @@
 //! recorded ones looked back at.
 //!
 //! Whoever serves the page has no access to the flight except its [`Controls`]: no
-//! client can affect the tick. What reads files or thinks is done on threads with the lowest priority. A page that falls behind gets a new snapshot; one that does not read is
-//! disconnected.
+//! client can affect the tick. What reads files or thinks is done on threads with the lowest priority. A page that falls behind
+//! gets a new snapshot; one that does not read is disconnected.
 //!
 //! On the loopback interface every user of this machine may give orders. At any other address the page
 //! requires a token, which is new for each flight. Pages of other sites are refused everywhere.
@@ -93,7 +93,7 @@ impl Listener {
     /// Binds the address.
     ///
     /// # Errors
-    /// [`BrowserError`] if it cannot be bound.
+    /// [`BrowserError`] if it cannot be bound, or there is no token for it.
     pub fn bind(address: SocketAddr) -> Result<Self, BrowserError> {
         let error = |source| BrowserError::Bind { address, source };
         let listener = TcpListener::bind(address).map_err(error)?;

@@ -75,8 +75,8 @@ impl Crew {
         Some(Self { chosen: Some(place), ..self.clone() })
     }
 
-    /// Whom a typed line is for, and the rest of it: before an order may stand the name of a vehicle of several. What is an order is
-    /// none: `land` lands all, also if a vehicle is called so.
+    /// Whom a typed line is for, and the rest of it: before an order may stand the name of a vehicle of several. What is an order
+    /// is none: `land` lands all, also if a vehicle is called so.
     pub(super) fn named_first<'a>(&self, line: &'a str) -> (Self, &'a str) {
         let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
         match self.named(first).filter(|_| !typed::is_order(first)) {

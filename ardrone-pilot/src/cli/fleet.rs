@@ -442,8 +442,8 @@ struct Left {
 
 /// Passes on what comes of all flights until their ends, and of the network meanwhile.
 ///
-/// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flights nevertheless: they are told by
-/// the threads that wait for them.
+/// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flights nevertheless: they are told
+/// by the threads that wait for them.
 fn pass_on(flying: Vec<Under<'_>>, network: &Receiver<network::News>, mut show: impl FnMut(News)) {
     let (sender, news) = bounded::<News>(UNSHOWN * flying.len());
     std::thread::scope(|scope| {

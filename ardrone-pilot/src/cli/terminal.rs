@@ -26,8 +26,8 @@ pub(super) fn print_own(result: &[u8]) {
     _ = stdout.write_all(result).and_then(|()| stdout.flush());
 }
 
-/// Prints one JSON line; before the first one, the line that says of what kind they are. Whoever prints first waits for who reads:
-/// nobody does before the flight has begun.
+/// Prints one JSON line; before the first one, the line that says of what kind they are. Whoever prints first waits for who
+/// reads: nobody does before the flight has begun.
 pub(super) fn print_object(object: &Value) {
     static HELLO: Once = Once::new();
     HELLO.call_once(|| print(format_args!("{}\n", json::text(&json::hello()))));

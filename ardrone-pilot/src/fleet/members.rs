@@ -28,7 +28,7 @@ const ULTRASOUND_M: f64 = 3.0;
 pub struct Fleet {
     /// Its name, a part of the name of the folder of its logs.
     pub name: VehicleName,
-    /// At least one.
+    /// At least one, and at most 32.
     pub members: Vec<Member>,
     /// The settings that all have in common, and the file of those.
     pub settings: Settings,
@@ -127,7 +127,8 @@ impl Fleet {
     /// Reads a fleet with its settings and plans, whose paths are relative to its file.
     ///
     /// # Errors
-    /// [`FleetError`].
+    /// [`FleetError`] if a file cannot be read or has errors, an agent is not built in, or a plan or its vehicle's limits cannot
+    /// be flown.
     pub fn read(path: &Path, z_origin: ZOrigin) -> Result<Self, FleetError> {
         let name = path.display().to_string();
         let text = read("the fleet", path)?;

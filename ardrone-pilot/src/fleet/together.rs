@@ -51,9 +51,10 @@ pub struct SimulatedMember {
 pub struct Meeting {
     /// Their places in the fleet.
     pub who: [usize; 2],
-    /// If each flew as if it were alone, and when that would be since their take-off; of two that fly plans.
+    /// The least distance in metres if each flew as if it were alone, and when that would be since their take-off; `None` unless
+    /// both fly plans.
     pub alone: Option<(f64, Duration)>,
-    /// As they are kept apart.
+    /// The least distance while both are in the air and kept apart; infinite if they never are at the same time.
     pub together_m: f64,
 }
 

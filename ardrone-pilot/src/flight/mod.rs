@@ -122,7 +122,7 @@ pub struct FinishedFlight {
 /// Why a flight could not be started, or failed for a reason unrelated to flying.
 #[derive(Debug, thiserror::Error)]
 pub enum FlightError {
-    /// The drone's host name cannot be resolved.
+    /// The drone's host name cannot be resolved, or has no IPv4 address.
     #[error("cannot find the drone `{host}`")]
     Address {
         /// The host name.
@@ -160,7 +160,8 @@ pub struct Beside {
     pub seat: Option<Seat>,
 }
 
-/// A flight in progress. Dropping it lands the drone and waits for the ground.
+/// A flight in progress. Dropping it lands the drone and waits for the ground, for at most 45 s; after that the flight exits
+/// with the landing ordered.
 #[derive(Debug)]
 pub struct Flight {
     messages: Receiver<Message>,
@@ -191,7 +192,8 @@ impl Flight {
     /// with the landing ordered.
     ///
     /// # Errors
-    /// [`FlightError`] if the drone's address cannot be resolved, or a socket or thread cannot be had.
+    /// [`FlightError`] if the plan or the limits are refused, the drone's host has no IPv4 address, or a socket or thread cannot
+    /// be had.
     pub fn start(
         runtime: &Runtime,
         plan: Option<Plan>,

@@ -60,13 +60,14 @@ impl Controls {
     /// way: they are counters, not entries of a queue.
     ///
     /// # Errors
-    /// [`Refused::Busy`] or [`Refused::Left`] if the order cannot be delivered.
+    /// [`Refused::Busy`] if 64 orders wait for the tick, [`Refused::Left`] if the vehicle has been left.
     pub fn order(&self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         self.send(by, order, None)
     }
 
     /// As [`Controls::order`]; `answer` is called with the vehicle's answer, in the tick's thread, where it
-    /// must not block. It is not called if an error is returned.
+    /// must not block. Landing and cutting the motors are always accepted: then it is called at once, in this thread. It is not
+    /// called if an error is returned.
     ///
     /// # Errors
     /// As [`Controls::order`].
@@ -79,10 +80,11 @@ impl Controls {
         self.send(by, order, Some(Box::new(answer)))
     }
 
-    /// As [`Controls::order`], but waits for the vehicle's answer.
+    /// As [`Controls::order`], but waits for the vehicle's answer, for at most 1 s.
     ///
     /// # Errors
-    /// [`Refused`] if the vehicle refuses the order or it cannot be delivered.
+    /// [`Refused`] if the vehicle refuses the order or it cannot be delivered; [`Refused::Busy`] also if no answer comes, though
+    /// the order may be taken later.
     pub fn ask(&self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         let (sender, answered) = bounded(1);
         self.order_answered(by, order, move |answer| {

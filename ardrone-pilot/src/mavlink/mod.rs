@@ -54,7 +54,7 @@ impl Listener {
     /// Opens the socket from which these remotes are spoken to: their IPv4 addresses. Those beyond [`MOST_REMOTES`] are left out.
     ///
     /// # Errors
-    /// [`MavlinkError::Bind`].
+    /// [`MavlinkError::Bind`] if the system has no socket for it.
     pub fn bind(mut remotes: Vec<SocketAddr>) -> Result<Self, MavlinkError> {
         remotes.truncate(MOST_REMOTES);
         let here = remotes.iter().all(|remote| remote.ip().is_loopback());
@@ -69,7 +69,7 @@ impl Listener {
     /// Starts the vehicle; the time of its configuration is set here.
     ///
     /// # Errors
-    /// [`MavlinkError::Socket`].
+    /// [`MavlinkError::Socket`] if the runtime cannot use the socket.
     pub fn open(
         self,
         runtime: &Runtime,

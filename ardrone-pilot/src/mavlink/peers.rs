@@ -12,9 +12,9 @@ pub(super) const MOST: usize = 16;
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(10);
 /// Age from which a silent peer is evicted when all slots are used. Heartbeats come every second.
 const GIVES_WAY_AFTER: Duration = Duration::from_secs(3);
-/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: half of what all may send. One that sends
-/// more for long floods, and takes no more room from others. A client that asks for one thing after the other as fast as it is
-/// answered, as for the items of a mission, must lose nothing.
+/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: half of what all may send. One that
+/// sends more for long floods, and takes no more room from others. A client that asks for one thing after the other as fast as it
+/// is answered, as for the items of a mission, must lose nothing.
 const AT_ONCE: u16 = 2048;
 const PER_TICK: u16 = 32;
 

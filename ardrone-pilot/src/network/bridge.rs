@@ -62,7 +62,7 @@ impl NetworkConfig {
     /// Reads a file of Zenoh. Others are not looked for by multicast unless it says so.
     ///
     /// # Errors
-    /// [`NetworkError::Config`].
+    /// [`NetworkError::Config`] if it cannot be read, or is no configuration of Zenoh.
     pub fn read(path: &Path) -> Result<Self, NetworkError> {
         let refused = |error: zenoh::Error| NetworkError::Config {
             path: path.to_owned(),
@@ -135,8 +135,8 @@ impl Shared {
     }
 }
 
-/// The connection to the programs that fly the other vehicles of a fleet. It ends when this is dropped, after it has told once
-/// more how the vehicles were left.
+/// The connection to the programs that fly the other vehicles of a fleet. It ends when this is dropped, which waits until it has
+/// told three times more how the vehicles were left.
 #[derive(Debug)]
 pub struct Bridge {
     shared: Arc<Shared>,
@@ -147,10 +147,10 @@ pub struct Bridge {
 
 impl Bridge {
     /// Begins to tell of the vehicles that are flown here, and to hear the others; `places` are those of all, in the order of
-    /// the fleet.
+    /// the fleet. It waits until Zenoh has begun, and so must not be called from a task of a runtime, which panics.
     ///
     /// # Errors
-    /// [`NetworkError`].
+    /// [`NetworkError`] if Zenoh refuses to begin, or there are no random numbers.
     pub fn open(
         runtime: &Runtime,
         NetworkConfig(config): NetworkConfig,

@@ -12,8 +12,8 @@ use super::state::{Echo, MOST_ECHOES, Session, State};
 
 /// What may be older is not believed: as old as what makes a vehicle silent (`autopilot::separation`).
 pub const TOO_OLD: Duration = Duration::from_secs(2);
-/// Most programs whose clocks are remembered, of which there are more than vehicles: anybody can make up numbers. Each is answered
-/// in one of eleven states.
+/// Most programs whose clocks are remembered, of which there are more than vehicles: anybody can make up numbers. Each is
+/// answered in one of eleven states.
 const MOST_SESSIONS: usize = 64;
 
 /// What the programs of a fleet tell each other, as one of them hears it. Times are of its own clock, from its beginning.

@@ -6,7 +6,8 @@ use autopilot::vehicle::{Start, VehicleName};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The beginning of the SHA-256 of what must agree: names, numbers and starts of all vehicles.
+/// The beginning of the SHA-256 of what must agree: the fleet's name, and the names, numbers, places and headings of the starts
+/// of all vehicles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Digest(pub [u8; 8]);

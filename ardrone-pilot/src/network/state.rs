@@ -11,7 +11,7 @@ use super::roster::Digest;
 
 /// Version of the text. A program that reads another one refuses it.
 pub const VERSION: u32 = 1;
-/// Longest text.
+/// Longest text, in bytes.
 pub const STATE_BYTES: usize = 1024;
 /// Most answers in one state, so that it is no longer than that.
 pub const MOST_ECHOES: usize = 6;
@@ -54,7 +54,7 @@ pub struct State {
     pub neighbour: Neighbour,
     /// Its flight has ended, and it stays where it is.
     pub is_parked: bool,
-    /// At most [`MOST_ECHOES`].
+    /// Answers to others; those beyond [`MOST_ECHOES`] are not told.
     pub heard: Vec<Echo>,
 }
 
@@ -67,7 +67,7 @@ pub enum Unreadable {
     Malformed,
     /// It has another version.
     Version(u32),
-    /// A number is not finite, or so large that it makes no sense.
+    /// A number is not finite, so large that it makes no sense, or contradicts another one.
     Absurd,
 }
 

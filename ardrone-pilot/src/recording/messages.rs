@@ -67,10 +67,10 @@ pub struct Mission {
     pub steps: Vec<String>,
 }
 
-/// A position and a heading.
+/// A position and a heading in the world, which begins at the drone's start, or is the frame that a fleet's vehicles share.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {
-    /// Metres to the right of the take-off.
+    /// Metres to the right of the origin.
     pub x_m: f64,
     /// Metres forward of it.
     pub y_m: f64,
@@ -80,10 +80,10 @@ pub struct Place {
     pub yaw_deg: f64,
 }
 
-/// The estimated state that the decision was based on.
+/// The estimated state that the decision was based on, in the world as in a [`Place`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Metres to the right of the take-off.
+    /// Metres to the right of the origin.
     pub x_m: f64,
     /// Metres forward of it.
     pub y_m: f64,
@@ -91,9 +91,9 @@ pub struct Estimate {
     pub z_m: f64,
     /// Degrees clockwise.
     pub yaw_deg: f64,
-    /// To the right.
+    /// To the right in the world.
     pub vx_m_s: f64,
-    /// Forward.
+    /// Forward in the world.
     pub vy_m_s: f64,
     /// Up.
     pub vz_m_s: f64,
@@ -175,7 +175,7 @@ pub struct DecodedNavdata {
     pub battery_percent: Option<u32>,
     /// Ultrasound altitude.
     pub altitude_m: Option<f64>,
-    /// Forward, right, down. What is no number is null in the file, and NaN here.
+    /// Forward, right, down of the drone. What is no number is null in the file, and NaN here.
     #[serde(deserialize_with = "numbers_or_null")]
     pub velocity_m_s: Option<[f64; 3]>,
     /// Roll, pitch and yaw as reported by the drone; likewise.
@@ -227,7 +227,7 @@ pub struct Tags {
 pub struct Tag {
     /// Its number in this flight, from 1.
     pub id: u32,
-    /// Metres to the right of the start.
+    /// Metres to the right of the world's origin.
     pub x_m: f64,
     /// Metres forward of it.
     pub y_m: f64,

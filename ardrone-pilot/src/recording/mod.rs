@@ -69,7 +69,7 @@ pub struct Header {
     pub drone: String,
 }
 
-/// An entry of the log.
+/// An entry of the log. Times count from the start of the flight ([`Header::start`]).
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a box would be asked for in each tick")]
 pub enum Record {
@@ -149,7 +149,8 @@ pub enum Record {
     },
 }
 
-/// Name of the log of a flight that starts then, since the Unix epoch: `2026-11-21T13-45-07Z-ardrone.mcap`. Names that sort by time, differ for each vehicle, and are valid on any file system.
+/// Name of the log of a flight that starts then, since the Unix epoch: `2026-11-21T13-45-07Z-ardrone.mcap`. Names that sort by
+/// time, differ for each vehicle, and are valid on any file system.
 pub fn file_name(start: Duration, vehicle: impl fmt::Display) -> String {
     let start = UtcDateTime::UNIX_EPOCH + start;
     let (date, time) = (start.date(), start.time());

@@ -125,15 +125,17 @@ impl Log {
     /// Reads the content of a file. A truncated log is read as far as it goes.
     ///
     /// # Errors
-    /// [`LogError`] if it is not a flight log.
+    /// [`LogError`] if it is not a flight log, has another format or a damaged message, or is larger than
+    /// [`LARGEST_FILE_BYTES`].
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
         Self::read_topics(file, &topic::ALL)
     }
 
-    /// As [`read`](Self::read), without what the drone sent: a fraction of the memory and of the time.
+    /// As [`read`](Self::read), but only the ticks, the missions, and the messages for people: a fraction of the memory and of
+    /// the time.
     ///
     /// # Errors
-    /// [`LogError`] if it is not a flight log.
+    /// As [`read`](Self::read).
     pub fn read_decisions(file: &[u8]) -> Result<Self, LogError> {
         Self::read_topics(file, &[topic::TICK, topic::MISSION, topic::LOG])
     }

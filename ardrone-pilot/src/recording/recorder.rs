@@ -103,10 +103,10 @@ pub struct Recorded {
 }
 
 impl Recorder {
-    /// Starts recording to a new file.
+    /// Starts recording to a new file; one that exists is not overwritten.
     ///
     /// # Errors
-    /// [`RecordingError`] if the file cannot be created or written.
+    /// [`RecordingError`] if the file exists, cannot be created or written, or there can be no thread.
     pub fn start(path: &Path, header: &Header) -> Result<(Self, Recording), RecordingError> {
         let create = |source| RecordingError::Create { path: path.to_owned(), source };
         // An existing log is not overwritten.
@@ -142,7 +142,7 @@ impl Recorder {
         Self { records, buffers, lost: 0 }
     }
 
-    /// Number of records dropped because the disk was too slow.
+    /// Number of records dropped because the disk was too slow, without pictures.
     pub fn lost(&self) -> u64 {
         self.lost
     }

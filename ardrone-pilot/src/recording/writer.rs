@@ -1,7 +1,7 @@
 //! Writes a flight log as MCAP (<https://mcap.dev>), with schemas that Foxglove and Lichtblick know.
 //!
-//! Messages are JSON with schemas. Chunks are not compressed, so that everything flushed before a crash can
-//! be read by any tool, and no C library is needed.
+//! Messages are JSON with schemas, but for the pictures of the video, which are protocol buffers. Chunks are compressed with
+//! LZ4, and each flush ends one, so that everything flushed before a crash can be read.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -220,7 +220,7 @@ impl<W: Write + Seek> LogWriter<W> {
         self.bytes(channel, at, &compressed_video::message(time, CAMERA, picture))
     }
 
-    /// Ensures that everything written so far survives a crash.
+    /// Ensures that everything written so far survives a crash of the process: it ends the chunk.
     ///
     /// # Errors
     /// [`McapError`] if writing fails.

@@ -27,7 +27,7 @@ const BEHIND: Duration = Duration::from_secs(3);
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The log contains no navdata.
+    /// The log, or its part about the flight, has no ticks.
     #[error("the log contains no ticks: no drone answered")]
     Empty,
     /// The recording has fewer flights.

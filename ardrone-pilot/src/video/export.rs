@@ -15,7 +15,7 @@ pub enum ExportError {
     /// The log cannot be read.
     #[error(transparent)]
     Log(#[from] LogError),
-    /// It has no video.
+    /// It has no video, or only one picture.
     #[error("the flight log has no video: record one with --record-video")]
     NoVideo,
     /// The ending says no format that is known.

@@ -68,7 +68,7 @@ pub struct ValidationEvidence {
     pub status: Status,
     /// Number of proofs.
     pub proofs: usize,
-    /// Largest number of answers of one action in a step that was compared.
+    /// Largest number of answers of one action in a step that was compared, rounded up to a power of two.
     pub calls: u32,
     /// Proofs that reached their time limit.
     pub timeouts: usize,
@@ -80,7 +80,7 @@ pub struct ValidationEvidence {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct PlanEvidence {
-    /// First and last line in the agent's text.
+    /// First and last line in the agent's text, counted from 1.
     pub lines: (usize, usize),
     /// Its triggering event.
     pub trigger: String,
@@ -90,7 +90,7 @@ pub struct PlanEvidence {
     pub requirements: Vec<String>,
     /// Its function in the C.
     pub function: String,
-    /// First and last line of the function.
+    /// First and last line of the function in the C, counted from 1.
     pub c_lines: (usize, usize),
     /// Executed lines of the function.
     pub statements: Share,
@@ -106,9 +106,9 @@ pub struct PlanEvidence {
 pub struct Requirement {
     /// Its tag.
     pub tag: String,
-    /// Indices of its plans.
+    /// Indices of its plans in [`Evidence::plans`].
     pub plans: Vec<usize>,
-    /// Indices of its properties.
+    /// Indices of its properties in [`Evidence::properties`].
     pub properties: Vec<usize>,
     /// The tests in which one of its plans is chosen, from one.
     pub tests: Vec<usize>,
@@ -122,7 +122,7 @@ pub struct TestEvidence {
     pub file: String,
     /// First lines of the plans that are chosen in it.
     pub plans: Vec<usize>,
-    /// The first difference between the C and the reference interpreter.
+    /// The first difference between the C and the reference interpreter, if there is one.
     pub difference: Option<String>,
 }
 

@@ -148,7 +148,8 @@ pub(super) const COUNTEREXAMPLES: &str = "counterexamples";
 /// begins with the conditions of an invariant that are known from earlier evidence, if there are any.
 ///
 /// # Errors
-/// If a tool is missing or fails, or the agent cannot be translated or proved.
+/// If a tool is missing or fails, the agent cannot be translated or proved, one of its headers or tests cannot be used, or a
+/// test breaks what is proved: see [`CertifyError`].
 pub fn certify(
     agent: &Agent,
     own_tests: &[OwnTest],

@@ -13,7 +13,7 @@ use crate::tool::{ToolError, output, write};
 pub struct Deviation {
     /// The file.
     pub file: String,
-    /// Its line.
+    /// Its line, counted from 1; 0 if it is about the whole file.
     pub line: usize,
     /// The rule as cppcheck names it, `misra-c2012-15.5`.
     pub rule: String,

@@ -77,7 +77,8 @@ impl Cbmc {
     /// Finds a CBMC: the given one, or that on the path.
     ///
     /// # Errors
-    /// [`ProveError::Missing`] if there is none, it is too old, or its C preprocessor is missing.
+    /// [`ProveError::Missing`] if there is none, it is older than version 6 or does not tell its version in 10 s, or gcc, its
+    /// C preprocessor, is missing.
     pub fn find(named: Option<&Path>) -> Result<Self, ProveError> {
         let missing = |reason: String| ProveError::Missing { reason };
         let path = named.unwrap_or(Path::new(CBMC));
@@ -112,10 +113,10 @@ impl Cbmc {
         self
     }
 
-    /// Whether the proofs were ended.
+    /// Fails once the proofs were ended.
     ///
     /// # Errors
-    /// [`ProveError::Stopped`].
+    /// [`ProveError::Stopped`] if the flag of [`Self::stopped_by`] is set.
     pub fn check_stop(&self) -> Result<(), ProveError> {
         if self.stop.load(Ordering::Relaxed) { Err(ProveError::Stopped) } else { Ok(()) }
     }

@@ -144,7 +144,8 @@ impl Plan<'_> {
 /// Proves the properties and run-time safety of an agent's C. Creates `folder` for the generated files.
 ///
 /// # Errors
-/// If a file cannot be written, or CBMC gives no result.
+/// If a file cannot be written, the C cannot be compiled, or CBMC is stopped, gives no result, or one that cannot be trusted:
+/// see [`ProveError`].
 pub fn prove(
     obligations: &Obligations,
     cbmc: &Cbmc,
@@ -210,7 +211,7 @@ pub fn prove_beginning_with(
 /// looked at. Conditions are only sought to be broken there, because that takes longest.
 ///
 /// # Errors
-/// If a file cannot be written, there is no such property, or CBMC gives no result.
+/// As [`prove`], and [`ProveError::NoResult`] if there is no such property.
 pub fn violates(
     obligations: &Obligations,
     cbmc: &Cbmc,

@@ -79,7 +79,7 @@ pub struct Difference {
 /// Each proof has a limited time. Ends with the first difference.
 ///
 /// # Errors
-/// If a file cannot be written, or CBMC gives no result: C that cannot be compiled, for example.
+/// As [`prove`](crate::prove()).
 pub fn validate(
     comparison: &Comparison,
     cbmc: &Cbmc,

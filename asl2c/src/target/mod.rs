@@ -88,7 +88,7 @@ pub struct OnTarget {
     pub state: u64,
     /// Bounds of each function of the interface, `next_step()` first.
     pub bounds: Vec<Bound>,
-    /// The most that a step took in part of the execution.
+    /// The most that a step took in an execution of at most 500 steps.
     pub observed: Observed,
     /// Steps that were executed on both machines.
     pub steps: u32,
@@ -139,7 +139,8 @@ pub fn on_target(
 /// The trace of an agent on this machine.
 ///
 /// # Errors
-/// [`TargetError::Failed`] of `gcc` if the C does not compile, of another program if it does not end well.
+/// [`TargetError::Failed`] of `gcc` if the C does not compile, of another program if it does not end well;
+/// [`TargetError::Missing`] if there is no `gcc`, [`TargetError::Io`] if files cannot be written.
 pub fn on_host(exercise: &Exercise, steps: u32) -> Result<String, TargetError> {
     let folder = temporary_folder()?;
     let build = Build { folder: folder.path() };

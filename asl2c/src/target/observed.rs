@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::io::{self, BufRead};
 
-/// The most that one call of a function has taken.
+/// The most that one call of a function has taken; of both figures not necessarily the same call.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Observed {
     /// Instructions of the agent and of the compiler's library.

@@ -58,7 +58,8 @@ const ORDERS: usize = 32;
 /// After this time without news of the vehicle nothing is told of it any more.
 const NEWS_TIME: Duration = Duration::from_secs(3);
 
-/// State machine of a `MAVLink` vehicle.
+/// State machine of a `MAVLink` vehicle. Each `now` is the time since the beginning of the vehicle's time, at which it was
+/// [`Config::unix_time`], and never goes back.
 #[derive(Debug)]
 pub struct MavlinkVehicle {
     config: Config,
@@ -117,7 +118,7 @@ impl MavlinkVehicle {
         }
     }
 
-    /// Handles what arrives.
+    /// Handles what arrives. What follows from it comes out of [`Self::poll`].
     pub fn handle(&mut self, now: Duration, input: Input<'_>) {
         match input {
             Input::Datagram { peer, local, bytes } => {
@@ -156,7 +157,8 @@ impl MavlinkVehicle {
         }
     }
 
-    /// The next datagram to send or order to give.
+    /// The next datagram to send or order to give; `None` if there is nothing left to do. Orders come first. At most 256
+    /// messages wait to be fetched; further ones are dropped.
     pub fn poll(&mut self, now: Duration) -> Option<Output<'_>> {
         if let Some((ticket, by, order)) = self.orders.pop_front() {
             return Some(Output::Order { ticket, by, order });

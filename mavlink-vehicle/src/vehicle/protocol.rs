@@ -67,7 +67,7 @@ pub struct Ticket(pub(super) u32);
 /// What arrives.
 #[derive(Debug)]
 pub enum Input<'a> {
-    /// A datagram from one of the peers.
+    /// A datagram from one of the peers. What is no frame in it is ignored, and if there is a key, what is not signed with it.
     Datagram {
         /// Number of the peer, which is its own as long as it is not gone.
         peer: u8,

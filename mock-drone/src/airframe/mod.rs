@@ -16,9 +16,9 @@ pub use profile::{AttitudeLoop, Profile, Scaling, ThrustLaw};
 pub const GRAVITY_M_S2: f64 = 9.81;
 /// Mass with the hull for rooms (Parrot: 380 g with the outer hull, 420 g with this one).
 pub const MASS_KG: f64 = 0.42;
-/// Drag of the drone in air that comes from above: its drag coefficient times the area that is solid, about a quarter of the hull's
-/// 0.52 m by 0.52 m. In 4.6 m/s, 1 m below another drone, it is a quarter of the weight; for drones of 34 g Shi et al. (2020,
-/// *Neural-Swarm*) measured an eighth to a third.
+/// Drag of the drone in air that comes from above: its drag coefficient times the area that is solid, about a quarter of the
+/// hull's 0.52 m by 0.52 m. In 4.6 m/s, 1 m below another drone, it is a quarter of the weight; for drones of 34 g Shi et al.
+/// (2020, *Neural-Swarm*) measured an eighth to a third.
 const DRAG_AREA_FROM_ABOVE_M2: f64 = 1.18 * 0.07;
 /// Density of the air at sea level.
 pub(crate) const AIR_KG_M3: f64 = 1.225;
@@ -139,7 +139,7 @@ impl Airframe {
         self
     }
 
-    /// Weakens a motor to this fraction of its thrust, from 0 to 1, over a time.
+    /// Weakens a motor on the right to this fraction of its thrust, from 0 to 1, over a time.
     pub fn weaken_motor(&mut self, share: f64, within: Duration) {
         let motor = &mut self.motor;
         motor.goal = share.clamp(0.0, 1.0);
@@ -247,7 +247,7 @@ impl Airframe {
         self.floor_contacts
     }
 
-    /// Sink rate at the last contact with the floor.
+    /// Sink rate at the last contact with the floor, in any phase; `None` before the first.
     pub fn touch_down_m_s(&self) -> Option<f64> {
         self.touch_down_m_s
     }

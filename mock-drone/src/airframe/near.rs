@@ -16,9 +16,9 @@ const LEAST_DAMPING: f64 = 0.5;
 
 impl Profile {
     /// An airframe near this one: each parameter is multiplied by a number of its own, drawn by `seed` evenly from
-    /// `1 - share` to `1 + share` (0.4 for 40 %), and keeps its unit. Thrust and damping stay within what is a drone; a
-    /// thrust that carries the weight becomes one by the sine of the tilt, of which gravity is multiplied. What is absent
-    /// here (a lag, a limit, quadratic drag) is absent there.
+    /// `1 - share` to `1 + share` (0.4 for 40 %; at most 1), and keeps its unit. Thrust and damping stay within what is a drone;
+    /// a thrust that carries the weight becomes one by the sine of the tilt, of which gravity is multiplied. What is absent here
+    /// (a lag, a limit, quadratic drag) is absent there.
     #[must_use]
     pub fn near(&self, seed: u64, share: f64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6e65_6172);

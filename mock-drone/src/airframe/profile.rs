@@ -21,9 +21,9 @@ pub struct Profile {
     pub pitch: AttitudeLoop,
     /// Acceleration by tilt.
     pub thrust: ThrustLaw,
-    /// Linear drag by the speed through the air (right, forward).
+    /// Linear drag: deceleration by the speed through the air (right, forward).
     pub linear_drag_1_s: Vector2<f64>,
-    /// Quadratic drag.
+    /// Quadratic drag: deceleration by the square of the horizontal speed through the air.
     pub quadratic_drag_1_m: f64,
     /// Time constant of the climb.
     pub climb_time_constant_s: f64,
@@ -36,7 +36,7 @@ pub struct Profile {
 pub struct Scaling {
     /// Multiple of `control:euler_angle_max`.
     pub tilt: f64,
-    /// Limit of the tilt.
+    /// Limit of the demanded roll and pitch; infinite if there is none.
     pub tilt_limit_rad: f64,
     /// Multiple of `control:control_vz_max`, upwards.
     pub climb: f64,

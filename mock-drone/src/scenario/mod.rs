@@ -83,7 +83,7 @@ pub enum VideoFault {
 pub enum Action {
     /// Fraction of datagrams that are lost.
     Loss(Direction, f64),
-    /// Base latency and maximum jitter.
+    /// Base latency and maximum jitter, in both directions, as the next three.
     Delay(Duration, Duration),
     /// Fraction of datagrams that arrive twice.
     Duplication(f64),
@@ -95,7 +95,7 @@ pub enum Action {
     Outage(Direction, Duration),
     /// Datagrams are held back for a time, and then arrive at once.
     Hold(Direction, Duration),
-    /// The last navdata packets, this many, arrive once more, at once.
+    /// The last navdata packets, this many and at most 256, arrive once more, at once.
     Burst(usize),
     /// The drone is power-cycled.
     Restart,
@@ -111,7 +111,7 @@ pub enum Action {
     Minor(u16, Duration),
     /// A motor weakens to this fraction of its thrust, over a time.
     Motor(f64, Duration),
-    /// The wind towards (right, forward), and the standard deviation of its gusts.
+    /// The wind towards (right, forward), and the standard deviation of its gusts on each axis, both in m/s.
     Wind(Vector2<f64>, f64),
     /// A roundel is placed on the floor.
     LayTag(FloorTag),
@@ -121,7 +121,7 @@ pub enum Action {
     Battery(f64),
     /// Reduction of the measured charge at full load, in percent.
     BatterySag(f64),
-    /// Another client commands the drone to hover for a time; its sequence numbers start here.
+    /// Another client orders take-off and hover for a time; its sequence numbers start here.
     SecondPilot(Duration, u32),
     /// The video is wrong for a time. Of several faults the last one counts, until it ends.
     Video(VideoFault, Duration),

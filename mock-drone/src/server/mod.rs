@@ -121,7 +121,7 @@ impl Server {
     /// Binds the ports.
     ///
     /// # Errors
-    /// [`ServerError::Bind`] with the port that is taken.
+    /// [`ServerError::Bind`] with the port that cannot be bound.
     pub async fn bind(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
         let address = |port| SocketAddr::new(ports.host, port);
         let udp = async |port, purpose| {
@@ -193,10 +193,10 @@ impl Server {
         })
     }
 
-    /// Runs until a socket fails.
+    /// Runs until a socket or the truth log fails; it never ends otherwise.
     ///
     /// # Errors
-    /// The system's error when a socket fails for good.
+    /// The system's error when a socket fails for good, the truth log cannot be written, or the video cannot be started.
     pub async fn run(mut self) -> io::Result<()> {
         let start = Instant::now();
         let mut at_buffer = [0_u8; BUFFER_BYTES];

@@ -42,7 +42,7 @@ pub struct View {
     pub yaw_rad: f64,
     /// Nose up.
     pub pitch_rad: f64,
-    /// To the right.
+    /// Right side down.
     pub roll_rad: f64,
     /// The camera below, not that in front.
     pub is_bottom: bool,

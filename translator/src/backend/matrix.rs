@@ -14,17 +14,17 @@ use crate::program::Program;
 pub struct TraceRow {
     /// The requirement; empty if the plan names none.
     pub requirement: String,
-    /// The number that is passed to the trace function.
+    /// The number that is passed to the trace function, counted from 0.
     pub plan: usize,
     /// The plan's label; empty if it has none.
     pub label: String,
     /// Its triggering event.
     pub trigger: String,
-    /// Its first and last line in the agent's text.
+    /// Its first and last line in the agent's text, counted from 1.
     pub source_lines: (usize, usize),
     /// Its function in the C.
     pub function: String,
-    /// The function's first and last line.
+    /// The function's first and last line in the C, counted from 1.
     pub c_lines: (usize, usize),
 }
 

@@ -68,7 +68,8 @@ impl Interpreter {
         self.init();
     }
 
-    /// A message arrives. False if it is refused: this peer may not send it, or too many goals of it wait.
+    /// A message arrives. False if it is refused: it is not declared, this peer may not send it, no plan achieves its goal,
+    /// or too many goals of it wait.
     pub fn receive(
         &mut self,
         from: usize,

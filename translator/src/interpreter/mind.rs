@@ -4,7 +4,7 @@ use super::{Event, Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 impl Interpreter {
-    /// Current beliefs, by name.
+    /// Current beliefs, by name, without those that peers tell.
     pub fn beliefs(&self) -> impl Iterator<Item = (&str, &[Value])> {
         self.beliefs.iter().map(|(name, values)| (name.as_str(), values.as_slice()))
     }

@@ -36,9 +36,10 @@ use diagnostic::Span;
 
 /// The environment of an interpreted agent.
 pub trait Environment {
-    /// Called at the start of each step. Returns the beliefs to set, with their values.
+    /// Called at the start of each step. Returns the beliefs to set, each with one value for each argument.
     fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)>;
-    /// Calls a basic action or function; functions return a value of `result`.
+    /// Calls a basic action or function, or the clock; functions return a value of `result`, and without one the formula
+    /// fails. A message is the action `send_tell_at`, whose first argument is the receiver's number.
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value>;
     /// Log of each step: events, plans that apply or do not, and their actions. `None` disables it.
     fn story(&mut self) -> Option<&mut Vec<CounterexampleStep>> {
@@ -173,7 +174,7 @@ impl Interpreter {
     /// An agent before its first step.
     ///
     /// # Errors
-    /// The rendered errors of an agent that cannot be translated.
+    /// As [`crate::translate`].
     pub fn new(
         configuration: &ParsedConfiguration,
         agent_text: &str,
@@ -238,12 +239,12 @@ impl Interpreter {
             < self.configuration.settings.inbox as usize
     }
 
-    /// Number of events that no plan handled completely.
+    /// Number of events that no plan handled completely, and of deferred goals for which the queue had no room.
     pub fn unhandled_events(&self) -> u32 {
         self.unhandled
     }
 
-    /// Number of external events that were refused because the inbox was full.
+    /// Number of external events, and of goals of peers, that were refused because there was no room for them.
     pub fn refused_events(&self) -> u32 {
         self.refused
     }
@@ -294,10 +295,11 @@ impl Interpreter {
         }
     }
 
-    /// One deliberation cycle with at most this number of formulas and conditions.
+    /// One deliberation cycle that tries at most this number of plans and formulas together.
     ///
     /// # Errors
-    /// [`TooLong`] if the limit is exceeded. The agent's state is then undefined.
+    /// [`TooLong`] if the limit is exceeded, or if more than 2000 calls of plans are nested. The agent's state is then
+    /// undefined.
     pub fn next_step_within(
         &mut self,
         formulae: u32,

@@ -148,7 +148,8 @@ impl Value {
         }
     }
 
-    /// Whether two values satisfy a relation.
+    /// Whether two values satisfy a relation. NaN, strings, values of different kinds, and structs that differ have no
+    /// order: only `\==` holds for them.
     pub fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
         let order = Self::order(left, right);
         match relation {

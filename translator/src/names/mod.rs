@@ -18,7 +18,7 @@ use crate::syntax::ast::{
 /// What kind of thing a name stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
-    /// A belief, a goal, an action or a function: one declaration for each name.
+    /// A belief, a goal, an action, a function or a peer: one declaration for each name.
     Declared,
     /// A class of actions.
     Class,
@@ -49,7 +49,7 @@ pub enum Usage {
     Change(Operator),
     /// `a(1)` in a body.
     Action,
-    /// A belief or function in a context, a function in a value, or a variable.
+    /// A belief or function in a context, a function in a value, what a message is about, a peer, or a variable.
     Value,
 }
 

@@ -6,8 +6,8 @@ use crate::configuration::Configuration;
 use crate::syntax::ast::{Atom, Expression, Formula, Plan};
 use crate::types::CType;
 
-/// The type of each variable, from its first use as an argument or from the value that it is bound to. Unlike the
-/// analysis this also works in plans with errors.
+/// The type of each variable, from its first use as an argument or from the value that it is bound to; not of those that
+/// only `.my_name`, a source or an age binds. Unlike the analysis this also works in plans with errors.
 pub fn variable_types<'a>(
     configuration: &'a Configuration,
     plan: &'a Plan,

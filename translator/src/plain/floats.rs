@@ -20,7 +20,8 @@ const OPERATIONS: [(&str, &str); 4] =
 const TYPES: [(TypeKind, &str, &str); 2] =
     [(TypeKind::Float32, "float", "32"), (TypeKind::Float64, "double", "64")];
 
-/// The function that a comparison calls for an operator on two values of a type; `None` if the operator is used.
+/// The function that a comparison calls for an operator on two values of a type; `None` if it uses the operator
+/// itself, because the type is none of floating-point numbers or the operator none of `+ - * /`.
 pub fn float_function(sign: &str, kind: TypeKind) -> Option<String> {
     let (_, operation) = OPERATIONS.iter().find(|(known, _)| *known == sign)?;
     let (_, _, bits) = TYPES.iter().find(|(known, ..)| *known == kind)?;
@@ -50,7 +51,7 @@ pub(crate) fn float_functions() -> String {
     text
 }
 
-/// The operators in their place, for compilers.
+/// C that defines these functions as macros with the operators, for compilers.
 pub fn float_operators() -> String {
     let mut text = String::new();
     for (kind, ..) in TYPES {

@@ -75,8 +75,8 @@ impl Report {
         }
     }
 
-    /// Adds the maximum stack of `next_step()`. `frame_bytes` are the frame sizes of the functions in the
-    /// generated C file, as reported by `compiler`; inlined functions are missing.
+    /// Adds the maximum stack of `next_step()`, without that of the actions. `frame_bytes` are the frame sizes of the
+    /// functions in the generated C file by name, as reported by `compiler`; inlined functions are missing.
     pub fn add_stack(&mut self, compiler: &str, frame_bytes: &HashMap<String, u64>) {
         self.stack = Some((compiler.to_owned(), self.frames.deepest(frame_bytes)));
     }

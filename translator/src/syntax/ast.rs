@@ -69,7 +69,7 @@ pub enum Expression {
         /// From quote to quote.
         span: Span,
     },
-    /// `f(X)`: a basic function, or in a context a belief.
+    /// `f(X)`: a basic function, in a context a belief; without arguments also a peer.
     Atom(Atom),
     /// `-X`
     Negate {
@@ -317,7 +317,7 @@ pub struct Trigger {
     pub kind: TriggerKind,
     /// Name and argument patterns.
     pub atom: Atom,
-    /// From the operator to the closing parenthesis.
+    /// From the operator to the closing parenthesis, or bracket.
     pub span: Span,
 }
 

@@ -61,7 +61,7 @@ impl Member {
 }
 
 impl System {
-    /// The index of an agent.
+    /// The index of the agent with this name.
     pub fn member(&self, name: &str) -> Option<usize> {
         self.members.iter().position(|member| member.name == name)
     }
@@ -80,8 +80,9 @@ impl System {
 /// Puts agents together: the configuration of each, and its text, in the order of [`ParsedSystem::agents`].
 ///
 /// # Errors
-/// [`TranslateError::Refused`] if an agent cannot be translated, if they do not have the same peers and messages, if a peer
-/// has no agent, or if a property names what does not exist.
+/// [`TranslateError::Refused`] if an agent cannot be translated, or is none of its own peers, if they do not have the same
+/// peers and messages, if a peer has no agent, or if a property names what does not exist, or two actions of one agent that
+/// are never together.
 pub fn compose(
     system: &ParsedSystem,
     agents: Vec<(ParsedConfiguration, String)>,

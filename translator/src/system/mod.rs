@@ -61,11 +61,11 @@ pub struct Agent {
 /// What lies between two agents, in each direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Channels {
-    /// How many messages can be under way; what is sent then is lost.
+    /// How many messages can be under way, 1 to 16; what is sent when there are as many is lost.
     pub capacity: u32,
-    /// How many messages can be lost one after the other; `None`: any number.
+    /// How many messages can be lost one after the other, at most 16; `None`: any number.
     pub losses: Option<u32>,
-    /// How many rounds a message can be under way after that in which it was sent; `None`: any number.
+    /// How many rounds a message can be under way after that in which it was sent, at most 16; `None`: any number.
     pub delay: Option<u32>,
 }
 
@@ -84,9 +84,9 @@ pub enum SystemFormula {
     /// `never_together(a.x, b.y)`: no two of the actions are called in the same round.
     NeverTogether(Vec<AgentAction>),
     /// `within(n, a.cause, b.x, c.y)`: after the cause one of the actions is called, in the rest of its round or in one of the
-    /// next.
+    /// next `n`.
     Within {
-        /// Maximum number of rounds.
+        /// Maximum number of rounds after that of the cause.
         rounds: u32,
         /// The cause.
         cause: AgentCause,

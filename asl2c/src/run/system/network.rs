@@ -8,14 +8,14 @@ use translator::interpreter::Value;
 use translator::syntax::ast::Performative;
 use translator::system::Channels;
 
-/// What the channels of a run do, within their bounds.
+/// What the channels of a run do. The system's bounds of losses and of capacity hold besides, that of the delay does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NetworkConditions {
-    /// How many messages of a hundred are lost.
+    /// How many messages of a hundred are lost, 0 to 100; fewer where the system's bound lets them arrive.
     pub loss_percent: u32,
-    /// How many rounds a message is late at most.
+    /// How many rounds a message is late at most, each number with the same probability.
     pub delay_rounds: u32,
-    /// Start of the random numbers.
+    /// Start of the random numbers: the same seed and script give the same run.
     pub seed: u64,
 }
 
