@@ -383,6 +383,8 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     let path = folder.path().join("f.toml");
     for (text, said) in [
         ("", "a fleet has 1 to 32 vehicles, and this one 0"),
+        ("version = 2\n[fleets]\n", "line 1, column 11"),
+        ("version = 2\n", "version 2 of this file's format: this program reads version 1"),
         ("[[vehicle]]\nname = \"a\"\n", "line 1, column 1"),
         ("[[vehicle]]\nname = \"a\"\nstart = []\n", "a has no start"),
         ("[[vehicle]]\nname = \"a\"\nstart = [11, 0, 0]\n", "a starts 1.00 m outside the fence"),

@@ -7,12 +7,17 @@ use autopilot::vehicle::VehicleName;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::settings::{Fence, SurveyedStart, UltrasoundFrequency};
+use crate::settings::{Fence, SurveyedStart, UltrasoundFrequency, Version};
+
+/// The version of the file of a fleet that is read.
+pub(super) const VERSION: u32 = 1;
 
 /// The whole file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Written {
+    #[serde(rename = "version", default)]
+    _version: Version<VERSION>,
     #[serde(default)]
     pub(super) fleet: Header,
     /// Read again with the settings; here for its errors with their places.

@@ -15,7 +15,7 @@ use nalgebra::Vector2;
 use toml::{Table, Value};
 
 use super::file::{self, Vehicle, Written};
-use crate::settings::{Settings, SettingsError};
+use crate::settings::{Settings, SettingsError, read_versioned};
 use crate::{simulation, text_file};
 
 /// Most vehicles of a fleet: each keeps apart from all others.
@@ -131,10 +131,11 @@ impl Fleet {
     pub fn read(path: &Path, z_origin: ZOrigin) -> Result<Self, FleetError> {
         let name = path.display().to_string();
         let text = read("the fleet", path)?;
-        let written: Written = toml::from_str(&text).map_err(|error| FleetError::Syntax {
-            path: name.clone(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
+        let written: Written =
+            read_versioned::<_, { file::VERSION }>(&text).map_err(|error| FleetError::Syntax {
+                path: name.clone(),
+                message: error.to_string().trim_end().to_owned(),
+            })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let config = written.fleet.config.as_ref().map(|config| folder.join(config));
         // What it leaves out of the fence is as in the settings.
