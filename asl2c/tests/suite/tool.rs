@@ -175,7 +175,8 @@ fn all_lines_of_json_are_alike() {
                     "line",
                     "message",
                     "rendered",
-                    "severity"
+                    "severity",
+                    "version"
                 ]
             );
             assert!(finding["code"].as_str().is_some_and(|code| !code.is_empty()), "{line}");
