@@ -254,6 +254,7 @@ impl Settings {
             section.apply(&mut config);
         }
         config.estimator.tags = self.tags.config();
+        config.limits.speed_max_m_s = config.cascade.speed_max_m_s;
         config
     }
 
