@@ -499,7 +499,10 @@ impl Shown {
     fn take_in(&mut self, message: &Message, as_json: bool) {
         let telemetry = match &message.content {
             Content::Telemetry(_, telemetry, _) => Some(telemetry),
-            Content::Realtime(_) | Content::Trouble(..) | Content::Said { .. } => None,
+            Content::Realtime(_)
+            | Content::Trouble(..)
+            | Content::Said { .. }
+            | Content::Heard { .. } => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);

@@ -191,7 +191,7 @@ impl Record {
                 @ (Telemetry::Event(_) | Telemetry::Mission { .. } | Telemetry::Ended(..)),
             ) => Self::Telemetry { at, telemetry: telemetry.clone() },
             Passed::Said(said) => Self::Said { at, said: *said },
-            Passed::Heard(line) => Self::Heard { at, line: *line },
+            Passed::Heard(heard) => Self::Heard { at, line: heard.line },
             // The rest can be seen in the ticks.
             Passed::Misunderstood(_)
             | Passed::Unsaid(..)
