@@ -193,11 +193,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
     let mut fact = |name: &str, value: String| {
         _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
     };
-    let done = flight
-        .events
-        .iter()
-        .filter(|event| event.text.starts_with("step ") && event.text.ends_with(" done"));
-    fact("steps done", done.count().to_string());
+    let [done, all] = flight.steps;
+    fact("steps done", format!("{done} of {all}"));
     fact("in the air", format!("{:.1} s", flight.flown_s()));
     if let Some((begin, end)) = flight.battery_percent() {
         fact("battery", format!("{begin} to {end} %"));
