@@ -384,6 +384,7 @@ fn prepare<'a>(
             settings: member.settings.to_toml()?,
             z_origin: arguments.z_origin(),
             drone: label.to_owned(),
+            mission_agent: member.agent.as_ref().map_or("", |(agent, _)| agent).to_owned(),
             ..Header::default()
         };
         let path = logs

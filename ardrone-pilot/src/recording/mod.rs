@@ -61,6 +61,8 @@ pub struct Header {
     pub plan_name: String,
     /// The plan.
     pub plan: String,
+    /// The mission agent that has the place of a plan; empty without one.
+    pub mission_agent: String,
     /// The settings in effect, as TOML.
     pub settings: String,
     /// Origin of the plan's heights.
