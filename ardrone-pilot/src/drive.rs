@@ -42,7 +42,7 @@ pub trait Surroundings {
     fn send(&mut self, now: Duration, transmit: Transmit<'_>);
 
     /// Something that the agent of another vehicle has said.
-    fn hear(&mut self) -> Option<Line> {
+    fn hear(&mut self) -> Option<Heard> {
         None
     }
 
@@ -54,6 +54,15 @@ pub trait Surroundings {
         _ = said;
         Ok(())
     }
+}
+
+/// A line that is said to a vehicle's agent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Heard {
+    /// It.
+    pub line: Line,
+    /// Whether a program elsewhere flies the vehicle whose agent says it: nobody here has shown it.
+    pub is_far: bool,
 }
 
 /// Where there is no room for what an agent says, so that it is lost.
@@ -100,7 +109,7 @@ pub enum Passed<'a> {
     /// Its agent says something to that of another vehicle.
     Said(Said),
     /// Something that was said to its agent, whether it understands it or not.
-    Heard(Line),
+    Heard(Heard),
     /// So many lines that its agent says are lost.
     Unsaid(NoRoom, u64),
     /// Something that was said to its agent is not understood.
@@ -155,9 +164,9 @@ impl<S: Surroundings> Driver<S> {
         let now = surroundings.now();
         let unsaid = agent.unsaid();
         for _ in 0..LINES_PER_TICK {
-            let Some(line) = surroundings.hear() else { break };
-            tee(now, Passed::Heard(line));
-            if let Err(problem) = agent.hear(now, &line) {
+            let Some(heard) = surroundings.hear() else { break };
+            tee(now, Passed::Heard(heard));
+            if let Err(problem) = agent.hear(now, &heard.line) {
                 tee(now, Passed::Misunderstood(problem));
             }
         }
@@ -336,8 +345,8 @@ impl Surroundings for Simulated {
         }
     }
 
-    fn hear(&mut self) -> Option<Line> {
-        self.heard.pop_front()
+    fn hear(&mut self) -> Option<Heard> {
+        self.heard.pop_front().map(|line| Heard { line, is_far: false })
     }
 
     fn say(&mut self, said: Said) -> Result<(), NoRoom> {

@@ -74,6 +74,14 @@ fn content(content: &Content, steps: &[Step]) -> Value {
             "line": said.line.as_str(),
             "again": again,
         }),
+        Content::Heard { at, line, again } => json!({
+            "type": "heard",
+            "t_s": at.as_secs_f64(),
+            "from": mission_agent::sender(line),
+            "text": mission_agent::text(line),
+            "line": line.as_str(),
+            "again": again,
+        }),
         Content::Trouble(at, trouble) => json!({
             "type": "event",
             "t_s": at.as_secs_f64(),

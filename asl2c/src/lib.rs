@@ -15,6 +15,10 @@
 //! ```
 #![forbid(unsafe_code)]
 
+/// The version of all JSON that the program writes for others: the field `version` of each object. It changes if a field
+/// goes, or means something else.
+pub const JSON_VERSION: u32 = 1;
+
 mod agent;
 mod certify;
 mod checksum;

@@ -281,7 +281,8 @@ impl Environment for AgentStep {
     }
 
     fn send_standby(&mut self) {
-        self.end(AgentCommand::Standby);
+        self.activity.stand_by(self.percepts.now_ms);
+        self.issue(AgentCommand::Standby);
     }
 
     fn send_take_off(&mut self) {

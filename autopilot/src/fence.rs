@@ -36,7 +36,7 @@ impl ZOrigin {
     }
 }
 
-/// The fence: lowest and highest height, and the border within which the drone may fly.
+/// What limits a flight. The fence: lowest and highest height, and the border within which the drone may fly; and how fast.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {
     /// Lowest target height above the floor, in metres.
@@ -50,6 +50,8 @@ pub struct FlightLimits {
     /// Where the drone stands at its first start, on the floor, if that is surveyed: plans are then of places in the world.
     /// Otherwise the world begins there.
     pub start: Option<Pose>,
+    /// Largest horizontal speed of the control law, in m/s: how long the way to a target takes.
+    pub speed_max_m_s: f64,
 }
 
 impl Default for FlightLimits {
@@ -70,7 +72,8 @@ impl FlightLimits {
     /// A fence with this border, from a lowest to a highest height above the floor in metres. Heights of plans count from
     /// the hover.
     pub const fn new(border: Border, floor_m: f64, ceiling_m: f64) -> Self {
-        Self { floor_m, ceiling_m, border, z_origin: ZOrigin::Hover, start: None }
+        let (z_origin, start, speed_max_m_s) = (ZOrigin::Hover, None, f64::INFINITY);
+        Self { floor_m, ceiling_m, border, z_origin, start, speed_max_m_s }
     }
 
     /// No limits at all.

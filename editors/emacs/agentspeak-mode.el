@@ -48,6 +48,7 @@
                                    "settables" "perceived" "triggerables" "preemptive" "properties") t)
               "\\s-*{")
      1 font-lock-keyword-face)
+    ("\\_<\\(version\\)\\s-+[0-9]" 1 font-lock-keyword-face)
     ("\\_<\\([a-z_]+\\)\\s-*=" 1 font-lock-variable-name-face)
     (,(regexp-opt '("exactly_one" "at_most_one" "at_least_one" "never" "within" "only_after" "all_handled"
                     "unless" "until") 'symbols)
@@ -65,6 +66,7 @@
 
 (defconst agentspeak-system-font-lock-keywords
   '(("\\_<\\(agents\\|channels\\|properties\\)\\s-*{" 1 font-lock-keyword-face)
+    ("\\_<\\(version\\)\\s-+[0-9]" 1 font-lock-keyword-face)
     ("\\_<\\(capacity\\|losses\\|delay\\)\\s-*=" 1 font-lock-variable-name-face)
     ("=\\s-*\\(any\\)\\_>" 1 font-lock-constant-face)
     ("\\_<\\(?:never_together\\|within\\)\\_>" . font-lock-builtin-face)

@@ -35,8 +35,18 @@ pub struct Said {
 impl Said {
     /// What it says, without version and sender.
     pub fn text(&self) -> &str {
-        self.line.splitn(3, ' ').nth(2).unwrap_or_default()
+        text(&self.line)
     }
+}
+
+/// What a line says, without version and sender.
+pub fn text(line: &str) -> &str {
+    line.splitn(3, ' ').nth(2).unwrap_or_default()
+}
+
+/// Who says a line, by itself.
+pub fn sender(line: &str) -> &str {
+    line.split(' ').nth(1).unwrap_or_default()
 }
 
 /// What an agent wants of its pilot.

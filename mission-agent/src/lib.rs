@@ -12,6 +12,6 @@ mod boundary;
 mod built_in;
 mod mission;
 
-pub use boundary::{Line, MAX_LINE, SAID_AGAIN_WITHIN, Said, kind};
+pub use boundary::{Line, MAX_LINE, SAID_AGAIN_WITHIN, Said, kind, sender, text};
 pub use built_in::{NoAgent, names};
 pub use mission::{MissionAgent, Misunderstood};

@@ -54,7 +54,7 @@ fn bad_plans_are_refused_with_their_place() {
     3 | gtoo 1 2 3 4
       | ^^^^
       |
-      = help: commands are: takeoff, land, goto, moveBy, moveByRel, hold, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
+      = help: commands are: takeoff, land, goto, moveBy, moveByRel, hold, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP, version
     ");
 }
 

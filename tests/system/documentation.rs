@@ -59,10 +59,12 @@ fn targets(line: &str) -> Vec<String> {
     linked.chain(included.map(str::to_owned)).collect()
 }
 
-/// What a link can name in a page: its headings, as both the book and code hosts write them.
+/// What a link can name in a page: its headings, as both the book and code hosts write them, and `<a id="NAME"></a>`.
 fn anchors(page: &str) -> BTreeSet<String> {
     let mut anchors = BTreeSet::new();
     for Line { text, .. } in lines(page).filter(|line| line.code.is_none()) {
+        let marks = text.split("<a id=\"").skip(1);
+        anchors.extend(marks.filter_map(|rest| Some(rest.split_once("\"></a>")?.0.to_owned())));
         let heading = text.trim_start_matches('#');
         if heading.len() == text.len() || !heading.starts_with(' ') {
             continue;
@@ -85,6 +87,18 @@ fn leads(name: &str, target: &str) -> bool {
     let has_place =
         || std::fs::read_to_string(&file).is_ok_and(|page| anchors(&page).contains(anchor));
     target.contains("://") || file.exists() && (anchor.is_empty() || has_place())
+}
+
+/// Each step that tests assumptions can be linked to, and each assumption with an experiment does so.
+#[test]
+fn the_safety_case_leads_to_the_steps_of_the_first_flight() {
+    let page = |name: &str| std::fs::read_to_string(repository().join(name)).unwrap();
+    let anchors = anchors(&page("docs/first-flight.md"));
+    let steps = anchors.iter().filter(|anchor| anchor.starts_with("step-")).count();
+    assert_eq!(steps, 25);
+    let case = page("docs/safety-case.md");
+    assert!(!case.contains("(first-flight.md)"), "a link to no step");
+    assert_eq!(case.matches("(first-flight.md#step-").count(), 18);
 }
 
 #[test]

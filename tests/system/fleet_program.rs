@@ -369,6 +369,21 @@ fn a_fleet_is_checked_as_it_would_fly() {
         Files::new(&[("left", -2.5, ""), ("right", 2.5, "takeoff\ngoto 2.5 1 0 0\nland\n")]);
     let (status, said) = check(waits.path().as_ref());
     assert!(status == Some(0) && said.ends_with("fleet.toml can be flown\n"), "{said}");
+    // One that has too little charge cannot begin, with a plan or with an agent.
+    let folder = tempfile::tempdir().unwrap();
+    let empty = folder.path().join("empty.toml");
+    std::fs::write(folder.path().join("up.txt"), "takeoff\nland\n").unwrap();
+    for mission in ["plan = \"up.txt\"", "agent = \"wingman\""] {
+        let one = |name: &str, x: i32, mission: &str| {
+            format!("[[vehicle]]\nname = \"{name}\"\nstart = [{x}, 0, 0]\n{mission}\n")
+        };
+        let text =
+            one("leader", -3, &format!("{mission}\nmock_battery = 12.0")) + &one("wingman", 3, "");
+        std::fs::write(&empty, text).unwrap();
+        let (status, said) = check(&empty);
+        assert_eq!(status, Some(20), "{said}");
+        assert!(said.ends_with("cannot be flown: one vehicle cannot begin\n"), "{said}");
+    }
     // Both want to one place, and neither leaves it: only one of them can be there.
     let to = "takeoff\nsetStayTime 120\ngoto 0 0 0 0\nland\n";
     let files = Files::new(&[("left", -2.5, to), ("right", 2.5, to)]);
@@ -383,6 +398,8 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     let path = folder.path().join("f.toml");
     for (text, said) in [
         ("", "a fleet has 1 to 32 vehicles, and this one 0"),
+        ("version = 2\n[fleets]\n", "line 1, column 11"),
+        ("version = 2\n", "version 2 of this file's format: this program reads version 1"),
         ("[[vehicle]]\nname = \"a\"\n", "line 1, column 1"),
         ("[[vehicle]]\nname = \"a\"\nstart = []\n", "a has no start"),
         ("[[vehicle]]\nname = \"a\"\nstart = [11, 0, 0]\n", "a starts 1.00 m outside the fence"),
@@ -390,9 +407,25 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nsystem = 0\n",
             "a would be the MAVLink system 0",
         ),
+        ("[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplan = \"no.txt\"\n", "f.toml:4:8"),
         (
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplan = \"no.txt\"\n",
             "cannot read the plan",
+        ),
+        ("[fence]\nceiling_m = 2\nradius_m = 0.1\n", "f.toml:3:12"),
+        ("[fence]\nceiling_m = 2\nradius_m = 0.1\n", "fence.radius_m is 0.1: it must lie in 0.5"),
+        ("[fence]\nceiling_m = 0.6\nfloor_m = 0.7\n", "f.toml:3:11"),
+        ("[fleet]\nseparation_m = 0.1\n", "f.toml:2:16"),
+        ("[fleet]\nconfig = \"no.toml\"\n", "f.toml:2:10"),
+        (
+            "[[vehicle]]\nname = \"wingman\"\nstart = [0, 0, 0]\nagent = \"wingman\"\n\
+             places = [[0, 1, 1, 0], [0, 12, 1, 0], [0, 1, 4, 0]]\n",
+            "f.toml:5:25",
+        ),
+        (
+            "[[vehicle]]\nname = \"wingman\"\nstart = [0, 0, 0]\nagent = \"wingman\"\n\
+             places = [[0, 1, 1, 0], [0, 12, 1, 0], [0, 1, 4, 0]]\n",
+            "place 3 of wingman is 4.00 m above the floor, above the ceiling of 3 m",
         ),
         ("[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nagents = \"b\"\n", "line 4, column 1"),
         (
@@ -411,7 +444,7 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\nplaces = [[0, 0, 1, 0]]\n",
             "a has places and no agent",
         ),
-        ("[fleet]\nseparation_m = 0.1\n", "room.separation_m is 0.1"),
+        ("[fleet]\nseparation_m = 0.1\n", "fleet.separation_m is 0.1"),
         ("[fleet]\nconfig = \"no.toml\"\n", "cannot read the settings"),
     ] {
         std::fs::write(&path, text).unwrap();
@@ -428,6 +461,13 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     let (status, error) = check(&path);
     let said = "vehicle.name is one vehicle's: the fleet has it for each; room.start is one";
     assert!(status == Some(20) && error.contains(said), "{error}");
+    std::fs::write(folder.path().join("tags.toml"), "[tags]\nsurveyed = [[0, 1], [11, 0]]\n")
+        .unwrap();
+    let tagged = "[fleet]\nconfig = \"tags.toml\"\n[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\ntags = true\n";
+    std::fs::write(&path, tagged).unwrap();
+    let (status, said) = check(&path);
+    assert!(status == Some(0) && said.contains("f.toml:2:10"), "{said}");
+    assert!(said.contains("warning: the given tag 11,0 is 11.00 m from the start"), "{said}");
     let two = |name: &str, x_m: f64| {
         format!(
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\n[[vehicle]]\nname = \"{name}\"\nstart = [{x_m}, 0, 0]\n"

@@ -24,6 +24,28 @@ fn number(chromium: &mut Chromium, tab: &Tab, expression: &str) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{expression}: {value}"))
 }
 
+/// The track begins where the take-off has ended, and the plan on the ground.
+#[test]
+fn plan_and_flight_are_at_the_same_place_of_the_heights() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = station();
+    let tab = planner(&mut chromium, &station);
+    chromium.type_into(&tab, "#plantext", "takeoff\ngoto 0 2 0 0\nland\n");
+    chromium.wait(&tab, "plan.targets().length === 1");
+    chromium.evaluate(&tab, "document.querySelector('#simulate').click()");
+    chromium.wait(&tab, "plan.simulated()?.track?.length > 20");
+    let apart_m = number(
+        &mut chromium,
+        &tab,
+        "(() => {
+           const [wanted, flown] = heights.unrolledWays();
+           const there = plan.simulated().track.findIndex(([, , y]) => y > 1.9);
+           return flown[there + 1][0] - wanted.at(-1)[0];
+         })()",
+    );
+    assert!(apart_m.abs() < 0.4, "{apart_m}");
+}
+
 const CTRL: u32 = 2;
 const SETTINGS: &str = "# Our hall.\n[fence]\nradius_m = 9.5 # to the wall\n";
 

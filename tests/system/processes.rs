@@ -1,7 +1,7 @@
 //! Both programs as separate processes.
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{Ipv4Addr, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Output, Stdio};
@@ -75,9 +75,15 @@ impl MockProcess {
     }
 
     fn pilot(&self, plan: &Path) -> Command {
+        let mut pilot = self.pilot_without_plan();
+        pilot.arg("--plan").arg(plan);
+        pilot
+    }
+
+    fn pilot_without_plan(&self) -> Command {
         let [at, navdata, control] = self.ports.map(|port| port.to_string());
         let mut pilot = program("ardrone-pilot");
-        pilot.arg("--plan").arg(plan).args(["--drone", "127.0.0.1", "--no-log"]);
+        pilot.args(["--drone", "127.0.0.1", "--no-log"]);
         pilot.args(["--at-port", &at, "--navdata-port", &navdata, "--control-port", &control]);
         pilot
     }
@@ -134,7 +140,7 @@ fn two_processes_fly_the_plan() {
     let plan = plan_file(SHORT);
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(text(&output).contains("commands done   4 of 4"), "{}", text(&output));
+    assert!(text(&output).contains("steps done      4 of 4"), "{}", text(&output));
     // The drone is still available for a second flight.
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
@@ -153,6 +159,28 @@ fn a_drone_that_vanishes_in_flight_is_reported_within_seconds() {
     assert_eq!(output.status.code(), Some(10));
     assert!(text(&output).contains("the drone stopped answering"), "{}", text(&output));
     assert!(std::fs::read_to_string(log.path()).unwrap().contains("link lost"));
+}
+
+/// Whoever leaves then has not landed it.
+#[test]
+fn a_drone_that_vanishes_is_reported_without_a_plan_too() {
+    for leave in ["quit\n", ""] {
+        let mut mock = MockProcess::start();
+        let (mut child, log) = start(mock.pilot_without_plan().stdin(Stdio::piped()));
+        wait_for(log.path(), "standby");
+        let mut orders = child.stdin.take().unwrap();
+        writeln!(orders, "append takeoff\nappend hold 50\nstart").unwrap();
+        wait_for(log.path(), "step 2");
+        mock.kill();
+        wait_for(log.path(), "the drone stopped answering");
+        if leave.is_empty() {
+            signal(&child, "-INT");
+        } else {
+            write!(orders, "{leave}").unwrap();
+        }
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(10), "{leave} {}", text(&output));
+    }
 }
 
 #[test]

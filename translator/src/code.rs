@@ -43,6 +43,7 @@ codes! {
     Error NoPlans "no-plans" "an agent without a plan";
     Error UnknownAction "unknown-action" "an unknown internal action, such as `.print`";
     Error UnknownSection "unknown-section" "an unknown section of the configuration";
+    Error OtherVersion "other-version" "a version of the language that this compiler does not read";
     Error UnknownSetting "unknown-setting" "an unknown setting";
     Error MissingSetting "missing-setting" "a required setting is missing";
     Error SettingValue "setting-value" "an invalid value of a setting";

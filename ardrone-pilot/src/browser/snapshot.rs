@@ -83,7 +83,7 @@ impl Snapshot {
                 self.remember(&object);
                 return object;
             }
-            Content::Said { .. } | Content::Realtime(_) => return object,
+            Content::Said { .. } | Content::Heard { .. } | Content::Realtime(_) => return object,
         };
         match telemetry {
             Telemetry::Status(status) => {

@@ -21,7 +21,7 @@ pub(super) fn is_fleet(path: &Path) -> bool {
     path.extension() == Some(OsStr::new("toml"))
 }
 
-/// Checks a fleet, prints the findings, and draws its ways if asked to.
+/// Checks a fleet, prints the findings, and draws its ways if asked to. The exit status is 20 if a vehicle cannot begin.
 pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let name = arguments.plan.display().to_string();
     if arguments.config.is_some() || arguments.tags || !arguments.tag.is_empty() {
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     if let Some(path) = &arguments.svg {
         write_drawing(path, &fleet_drawing::svg(&name, &fleet, &simulated)?)?;
     }
-    Ok(0)
+    Ok(if report.grounded().next().is_some() { 20 } else { 0 })
 }
 
 /// A checked fleet.
@@ -64,6 +64,13 @@ impl Report<'_> {
     /// Those that do not fly their plans to the end with the others.
     fn short(&self) -> impl Iterator<Item = &SimulatedMember> {
         self.simulated.members.iter().filter(|member| !is_flown(member.outcome.as_ref()))
+    }
+
+    /// Those that cannot begin, whatever the others do.
+    fn grounded(&self) -> impl Iterator<Item = &SimulatedMember> {
+        let is_refused =
+            |it: &&SimulatedMember| matches!(it.outcome, Some(Outcome::PreflightRefused { .. }));
+        self.simulated.members.iter().filter(is_refused)
     }
 
     fn mission_of(&self, member: &SimulatedMember) -> &'static str {
@@ -193,6 +200,10 @@ impl fmt::Display for Report<'_> {
             writeln!(f, "only with simulated drones, or on different machines: {shared}")?;
         }
         let verdict = match self.short().count() {
+            _ if self.grounded().next().is_some() => match self.grounded().count() {
+                1 => "cannot be flown: one vehicle cannot begin".to_owned(),
+                grounded => format!("cannot be flown: {grounded} vehicles cannot begin"),
+            },
             0 => "can be flown".to_owned(),
             1 => "can be flown, but one vehicle not to the end of its plan".to_owned(),
             short => format!("can be flown, but {short} vehicles not to the ends of their plans"),

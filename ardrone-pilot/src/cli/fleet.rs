@@ -384,6 +384,7 @@ fn prepare<'a>(
             settings: member.settings.to_toml()?,
             z_origin: arguments.z_origin(),
             drone: label.to_owned(),
+            mission_agent: member.agent.as_ref().map_or("", |(agent, _)| agent).to_owned(),
             ..Header::default()
         };
         let path = logs
@@ -499,7 +500,10 @@ impl Shown {
     fn take_in(&mut self, message: &Message, as_json: bool) {
         let telemetry = match &message.content {
             Content::Telemetry(_, telemetry, _) => Some(telemetry),
-            Content::Realtime(_) | Content::Trouble(..) | Content::Said { .. } => None,
+            Content::Realtime(_)
+            | Content::Trouble(..)
+            | Content::Said { .. }
+            | Content::Heard { .. } => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);

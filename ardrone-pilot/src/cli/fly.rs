@@ -263,7 +263,10 @@ impl Outputs<'_> {
     fn send(&mut self, message: &Message, watch: &mut Watch) {
         let telemetry = match &message.content {
             Content::Telemetry(_, telemetry, _) => Some(telemetry),
-            Content::Realtime(_) | Content::Trouble(..) | Content::Said { .. } => None,
+            Content::Realtime(_)
+            | Content::Trouble(..)
+            | Content::Said { .. }
+            | Content::Heard { .. } => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);

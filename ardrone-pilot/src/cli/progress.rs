@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use autopilot::plan::Step;
 use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK, Telemetry, VehicleName};
+use diagnostic::printable;
 use rustix::termios::tcgetwinsize;
 
 use super::prompt::PromptLine;
@@ -67,7 +68,15 @@ impl Progress {
             }
             Content::Trouble(at, trouble) => Some(format!("{} {trouble}", time(*at))),
             Content::Realtime(realtime) => Some(realtime.to_string()),
-            Content::Said { again: true, .. } => None,
+            Content::Said { again: true, .. } | Content::Heard { again: true, .. } => None,
+            Content::Heard { at, line, .. } => {
+                let text = printable(mission_agent::text(line));
+                Some(format!(
+                    "{} from {}: {text}",
+                    time(*at),
+                    printable(mission_agent::sender(line))
+                ))
+            }
             Content::Said { at, said, .. } => {
                 Some(format!("{} to {}: {}", time(*at), said.to, said.text()))
             }

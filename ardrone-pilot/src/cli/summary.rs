@@ -46,7 +46,7 @@ impl fmt::Display for Summary<'_> {
             return self.machine(f);
         }
         writeln!(f, "{}", self.finished.outcome)?;
-        writeln!(f, "  commands done   {} of {}", report.steps_done, report.steps)?;
+        writeln!(f, "  steps done      {} of {}", report.steps_done, report.steps)?;
         match report.flight_time() {
             Some(time) => writeln!(f, "  flight time     {:.1} s", time.as_secs_f64())?,
             None => writeln!(f, "  flight time     -")?,

@@ -4,18 +4,18 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use ardrone_link::DroneAddress;
-use autopilot::plan::{Plan, PlanError, TagUse, ZOrigin};
+use autopilot::plan::{FlightLimits, Plan, PlanError, TagUse, ZOrigin, given_tag_warnings};
 use autopilot::separation::{MAX_NEIGHBOURS, unsure_m};
 use autopilot::vehicle::{CannotFly, VehicleConfig, VehicleName};
-use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText};
+use diagnostic::{Diagnostic, Diagnostics, Severity, SourceText, Span};
 use kinematics::Pose;
 use mission_agent::{MissionAgent, NoAgent};
 use mock_drone::WorldConfig;
 use nalgebra::Vector2;
-use toml::{Table, Value};
+use toml::{Spanned, Table, Value};
 
 use super::file::{self, Vehicle, Written};
-use crate::settings::{Settings, SettingsError};
+use crate::settings::{Settings, SettingsError, read_versioned};
 use crate::{simulation, text_file};
 
 /// Most vehicles of a fleet: each keeps apart from all others.
@@ -132,19 +132,30 @@ impl Fleet {
     pub fn read(path: &Path, z_origin: ZOrigin) -> Result<Self, FleetError> {
         let name = path.display().to_string();
         let text = read("the fleet", path)?;
-        let written: Written = toml::from_str(&text).map_err(|error| FleetError::Syntax {
-            path: name.clone(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
+        let written: Written =
+            read_versioned::<_, { file::VERSION }>(&text).map_err(|error| FleetError::Syntax {
+                path: name.clone(),
+                message: error.to_string().trim_end().to_owned(),
+            })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let config = written.fleet.config.as_ref().map(|config| folder.join(config));
+        let config = written.fleet.config.as_ref().map(|config| folder.join(config.get_ref()));
         // What it leaves out of the fence is as in the settings.
         let table: Table = toml::from_str(&text).unwrap_or_default();
         let fence = table.get("fence").and_then(Value::as_table);
-        let settings = shared_settings(&written, fence, config.as_deref())?;
+        let invalid = |findings| {
+            let source = SourceText { name: name.clone(), text: text.clone() };
+            Diagnostics::new([source], findings)
+        };
+        let mut settings = settings_of_all(&written, config.as_deref(), &invalid)?;
+        if let Err(error) = settings.share(fence, written.fleet.separation_m) {
+            let SettingsError::Values { reasons, .. } = error else { return Err(error.into()) };
+            let reasons = reasons.into_iter().map(|reason| out_of_range(&text, reason)).collect();
+            return Err(FleetError::Invalid(invalid(reasons)));
+        }
         let config_of_all = settings.pilot_config(z_origin);
-        let findings = findings(&written, &config_of_all, text.trim_end().len());
-        let findings = Diagnostics::new([SourceText { name, text }], findings);
+        let mut findings = findings(&written, &config_of_all, text.trim_end().len());
+        findings.extend(file_findings(&written, &settings, &config_of_all, folder));
+        let findings = invalid(findings);
         if findings.has_errors() {
             let mut list = findings.clone().into_vec();
             list.retain(|finding| finding.severity == Severity::Error);
@@ -161,20 +172,65 @@ impl Fleet {
     }
 }
 
-/// Those that all have.
-fn shared_settings(
+/// The file of settings that all have, or the usual ones; `invalid` is what findings are shown with.
+fn settings_of_all(
     written: &Written,
-    fence: Option<&Table>,
     config: Option<&Path>,
+    invalid: &impl Fn(Vec<Diagnostic>) -> Diagnostics,
 ) -> Result<Settings, FleetError> {
-    let mut settings = Settings::default();
-    if let Some(path) = config {
-        let name = path.display().to_string();
-        settings = Settings::parse(&name, &read("the settings", path)?)?;
-        settings.for_all(&name)?;
-    }
-    settings.share(fence, written.fleet.separation_m)?;
+    let (Some(path), Some(place)) = (config, &written.fleet.config) else {
+        return Ok(Settings::default());
+    };
+    let text = text_file::read(path).map_err(|error| {
+        let finding = cannot_read("the settings", path, &error, place.span());
+        FleetError::Invalid(invalid(vec![finding]))
+    })?;
+    let name = path.display().to_string();
+    let settings = Settings::parse(&name, &text)?;
+    settings.for_all(&name)?;
     Ok(settings)
+}
+
+fn cannot_read(what: &str, path: &Path, error: &io::Error, place: Span) -> Diagnostic {
+    Diagnostic::error(format!("cannot read {what} {}: {error}", path.display()), place)
+        .help("its path is relative to the folder of this file")
+}
+
+/// A value of the fleet's file that no flight can have, for this reason, which begins with its name in the settings.
+fn out_of_range(text: &str, reason: String) -> Diagnostic {
+    let in_file = reason.replace("room.separation_m", "fleet.separation_m");
+    let name = in_file.split(' ').next().unwrap_or_default();
+    let (section, value) = name.split_once('.').unwrap_or((name, ""));
+    let place = file::place_of(text, section, value);
+    Diagnostic::error(in_file, place)
+}
+
+/// Plans that cannot be read, and tags that nobody may see.
+fn file_findings(
+    written: &Written,
+    settings: &Settings,
+    config: &VehicleConfig,
+    folder: &Path,
+) -> Vec<Diagnostic> {
+    let mut findings = Vec::new();
+    for plan in written.vehicle.iter().filter_map(|vehicle| vehicle.plan.as_ref()) {
+        let path = folder.join(plan.get_ref());
+        if let Err(error) = text_file::read(&path) {
+            findings.push(cannot_read("the plan", &path, &error, plan.span()));
+        }
+    }
+    let mut tags = settings.clone();
+    if let Some(place) = &written.fleet.config
+        && written.vehicle.iter().any(|vehicle| vehicle.tags)
+        // Wrong ones are told of the vehicle that uses them.
+        && tags.use_tags(&[]).is_ok()
+    {
+        let surveyed = tags.surveyed_tags().unwrap_or_default();
+        let warnings = given_tag_warnings(&surveyed, &config.limits);
+        findings
+            .extend(warnings.into_iter().map(|warning| Diagnostic::warning(warning, place.span())));
+    }
+    findings
 }
 
 fn member(
@@ -194,12 +250,8 @@ fn member(
         settings.use_tags(&[])?;
     }
     let config = settings.pilot_config(z_origin);
-    let path = vehicle.plan.as_ref().map(|plan| folder.join(plan));
+    let path = vehicle.plan.as_ref().map(|plan| folder.join(plan.get_ref()));
     let plan = path.map(|path| plan(&path, &settings, &config)).transpose()?;
-    let pose = |place: &[f64; 4]| {
-        let [x_m, y_m, z_m, yaw_deg] = *place;
-        Pose { x_m, y_m, z_m, yaw_deg }
-    };
     let agent = vehicle.agent.as_ref();
     let agent =
         agent.map(|agent| (agent.get_ref().clone(), vehicle.places.iter().map(pose).collect()));
@@ -249,7 +301,7 @@ fn findings(written: &Written, config: &VehicleConfig, end: usize) -> Vec<Diagno
             findings.push(Diagnostic::error(message, span).help(help));
         }
         findings.extend(start_findings(vehicle, config, others().map(|(other, _)| other)));
-        findings.extend(agent_findings(vehicle, &written.vehicle));
+        findings.extend(agent_findings(vehicle, &written.vehicle, &config.limits));
         if let Some(percent) = &vehicle.mock_battery
             && !(0.0..=100.0).contains(percent.get_ref())
         {
@@ -261,8 +313,37 @@ fn findings(written: &Written, config: &VehicleConfig, end: usize) -> Vec<Diagno
     findings
 }
 
+/// A place of which an agent may ask.
+fn pose(place: &Spanned<[f64; 4]>) -> Pose {
+    let [x_m, y_m, z_m, yaw_deg] = *place.get_ref();
+    Pose { x_m, y_m, z_m, yaw_deg }
+}
+
+/// A place of an agent at which it cannot fly.
+fn place_finding(
+    (number, place): (usize, &Spanned<[f64; 4]>),
+    vehicle: &Vehicle,
+    limits: &FlightLimits,
+) -> Option<Diagnostic> {
+    let (at, tolerance_m) = (pose(place), FlightLimits::TOLERANCE_M);
+    let how = if limits.outside_m(&at) > tolerance_m {
+        limits.border.how_far(Vector2::new(at.x_m, at.y_m))
+    } else if at.z_m < limits.floor_m - tolerance_m {
+        format!("{:.2} m above the floor, below the lowest of {} m", at.z_m, limits.floor_m)
+    } else if at.z_m > limits.ceiling_m + tolerance_m {
+        format!("{:.2} m above the floor, above the ceiling of {} m", at.z_m, limits.ceiling_m)
+    } else {
+        return None;
+    };
+    let message = format!("place {} of {} is {how}", number + 1, vehicle.name.get_ref());
+    Some(
+        Diagnostic::error(message, place.span())
+            .help("the fence is `[fence]` of this file or of the settings"),
+    )
+}
+
 /// What is wrong with a vehicle's agent.
-fn agent_findings(vehicle: &Vehicle, all: &[Vehicle]) -> Vec<Diagnostic> {
+fn agent_findings(vehicle: &Vehicle, all: &[Vehicle], limits: &FlightLimits) -> Vec<Diagnostic> {
     let name = vehicle.name.get_ref();
     let Some(agent) = &vehicle.agent else {
         let places = (!vehicle.places.is_empty()).then(|| {
@@ -277,12 +358,17 @@ fn agent_findings(vehicle: &Vehicle, all: &[Vehicle]) -> Vec<Diagnostic> {
         let message = format!("{name} has a plan and an agent");
         return vec![Diagnostic::error(message, agent.span()).help(help)];
     }
-    if vehicle.places.iter().flatten().any(|number| !number.is_finite()) {
+    if let Some(place) =
+        vehicle.places.iter().find(|place| !place.get_ref().iter().all(|number| number.is_finite()))
+    {
         let message = format!("{name} has a place with a number that is not finite");
-        return vec![Diagnostic::error(message, vehicle.name.span())];
+        return vec![Diagnostic::error(message, place.span())];
     }
+    let places = vehicle.places.iter().enumerate();
+    let mut findings: Vec<Diagnostic> =
+        places.filter_map(|place| place_finding(place, vehicle, limits)).collect();
     match MissionAgent::new(agent.get_ref(), name.as_str(), Vec::new(), false) {
-        Err(problem) => vec![Diagnostic::error(problem.to_string(), agent.span())],
+        Err(problem) => findings.push(Diagnostic::error(problem.to_string(), agent.span())),
         Ok(built) => {
             let is_there =
                 |peer: &&&str| all.iter().any(|other| other.name.get_ref().as_str() == **peer);
@@ -294,9 +380,10 @@ fn agent_findings(vehicle: &Vehicle, all: &[Vehicle]) -> Vec<Diagnostic> {
                 Diagnostic::error(message, agent.span())
                     .help("an agent knows the others by the names of their vehicles")
             });
-            missing.into_iter().collect()
+            findings.extend(missing);
         }
     }
+    findings
 }
 
 /// What is wrong or unwise in where a vehicle starts.

@@ -40,7 +40,7 @@ use self::real_time::{RealTime, clock};
 pub use self::room::{FarAgents, Placed, Places, Seat};
 use self::said::SaidLast;
 use self::unsaid::Unsaid;
-use crate::drive::{Driver, Passed};
+use crate::drive::{Driver, Heard, Passed};
 use crate::realtime::Realtime;
 use crate::recording::Recorder;
 use crate::runtime::Runtime;
@@ -52,7 +52,7 @@ use autopilot::vehicle::{
     CannotFly, FlightReport, Input, Operator, OperatorOrder, Output, Telemetry, Transmit, Vehicle,
     VehicleConfig, VehicleName,
 };
-use mission_agent::{MissionAgent, Said};
+use mission_agent::{Line, MissionAgent, Said};
 
 /// A message of a flight in progress.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +74,15 @@ pub enum Content {
     Telemetry(Duration, Telemetry, TickHealth),
     /// A problem of the network; the flight goes on.
     Trouble(Duration, Trouble),
+    /// The agent of a vehicle that is flown elsewhere says something to this one's.
+    Heard {
+        /// When it is heard.
+        at: Duration,
+        /// It.
+        line: Line,
+        /// The same was heard, with other numbers perhaps, shortly before.
+        again: bool,
+    },
     /// The vehicle's agent says something to that of another one.
     Said {
         /// When.
@@ -318,6 +327,7 @@ struct Tee {
     misunderstood: bool,
     /// What its agent has said.
     said: SaidLast,
+    heard: SaidLast,
     /// What of that is lost.
     unsaid: Unsaid,
     /// Timing of the ticks since the last status.
@@ -373,6 +383,11 @@ impl Tee {
                     self.warn(at, Trouble::Misunderstood(problem));
                 }
             }
+            Passed::Heard(Heard { line, is_far: true }) => {
+                // Who says it is in the line.
+                let again = self.heard.is_said_again(at, Said { to: "", line });
+                self.send(Content::Heard { at, line, again });
+            }
             // Who has said it shows it.
             Passed::Heard(_) | Passed::Input(..) | Passed::Sent { .. } => {}
         }
@@ -423,6 +438,7 @@ impl TickLoop {
             tells_end: stay == Stay::UntilLeft,
             misunderstood: false,
             said: SaidLast::default(),
+            heard: SaidLast::default(),
             unsaid: Unsaid::default(),
             health: TickHealth::default(),
         };
@@ -504,11 +520,14 @@ impl TickLoop {
                 // One that has not flown had nothing to fly.
                 is_over.then(|| outcome.cloned().unwrap_or(Outcome::Completed))
             }
-            // The landing of a lost drone is never confirmed.
             Stay::UntilLeft | Stay::UntilOver => {
-                let may_leave = self.driver.vehicle.is_at_rest() || outcome.is_some();
-                let end = if outcome.is_some() { Outcome::Interrupted } else { Outcome::CalledOff };
-                may_leave.then_some(end)
+                match (outcome, self.driver.vehicle.is_at_rest()) {
+                    // The landing of a lost drone is never confirmed, and whoever leaves has not ordered it.
+                    (Some(Outcome::LinkLost), false) => Some(Outcome::LinkLost),
+                    (Some(_), _) => Some(Outcome::Interrupted),
+                    (None, true) => Some(Outcome::CalledOff),
+                    (None, false) => None,
+                }
             }
         }
     }
@@ -614,6 +633,27 @@ mod tests {
         });
         assert!(matches!(result, Err(FlightError::Panicked)), "{result:?}");
         assert!(matches!(mock.truth().phase, Phase::Landing | Phase::Landed), "{:?}", mock.truth());
+    }
+
+    #[test]
+    fn what_agents_elsewhere_say_is_told_and_no_line_of_one_here() {
+        let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+        let (mut tick, _controls, messages) = over(&mock);
+        let line = Line::from("0123456789abcdef right tell at(1.0, 2.0)").unwrap();
+        for (ms, is_far) in [(0, false), (30, true), (60, true), (90, false)] {
+            tick.tee.pass(Duration::from_millis(ms), Passed::Heard(Heard { line, is_far }));
+        }
+        let heard: Vec<Content> = messages.try_iter().map(|message| message.content).collect();
+        let at = Duration::from_millis;
+        assert_eq!(
+            heard,
+            [
+                Content::Heard { at: at(30), line, again: false },
+                Content::Heard { at: at(60), line, again: true },
+            ]
+        );
+        assert_eq!(mission_agent::sender(&line), "right");
+        assert_eq!(mission_agent::text(&line), "tell at(1.0, 2.0)");
     }
 
     #[test]

@@ -4,14 +4,14 @@ use std::time::{Duration, Instant};
 
 use autopilot::separation::Neighbour;
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Stage, Transmit};
-use mission_agent::{Line, Said};
+use mission_agent::Said;
 
 use super::LinkSummary;
 use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
 use super::room::{FarAgents, Seat};
-use crate::drive::{NoRoom, Surroundings, Take};
+use crate::drive::{Heard, NoRoom, Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
 
@@ -233,9 +233,11 @@ impl Surroundings for RealTime {
         self.done(Stage::Send);
     }
 
-    fn hear(&mut self) -> Option<Line> {
+    fn hear(&mut self) -> Option<Heard> {
         let near = self.seat.as_ref().and_then(Seat::next_line);
-        near.or_else(|| self.far_agents.as_mut()?.next_line())
+        let mut far = || self.far_agents.as_mut()?.next_line();
+        let near = near.map(|line| Heard { line, is_far: false });
+        near.or_else(|| far().map(|line| Heard { line, is_far: true }))
     }
 
     fn say(&mut self, said: Said) -> Result<(), NoRoom> {

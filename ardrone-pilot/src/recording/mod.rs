@@ -61,6 +61,8 @@ pub struct Header {
     pub plan_name: String,
     /// The plan.
     pub plan: String,
+    /// The mission agent that has the place of a plan; empty without one.
+    pub mission_agent: String,
     /// The settings in effect, as TOML.
     pub settings: String,
     /// Origin of the plan's heights.
@@ -192,7 +194,7 @@ impl Record {
                 @ (Telemetry::Event(_) | Telemetry::Mission { .. } | Telemetry::Ended(..)),
             ) => Self::Telemetry { at, telemetry: telemetry.clone() },
             Passed::Said(said) => Self::Said { at, said: *said },
-            Passed::Heard(line) => Self::Heard { at, line: *line },
+            Passed::Heard(heard) => Self::Heard { at, line: heard.line },
             // The rest can be seen in the ticks.
             Passed::Misunderstood(_)
             | Passed::Unsaid(..)

@@ -26,6 +26,8 @@ pub struct Log {
     pub vehicle: VehicleName,
     /// The plan's file name.
     pub plan_name: String,
+    /// The mission agent that has the place of a plan; empty without one.
+    pub mission_agent: String,
     /// The plan.
     pub plan: String,
     /// The settings that were in effect, as TOML.
@@ -168,6 +170,8 @@ impl Log {
         Ok(Self {
             vehicle,
             plan_name: metadata("plan")?,
+            // Logs of before have none.
+            mission_agent: metadata("mission_agent").unwrap_or_default(),
             plan: text(PLAN_FILE)?,
             settings: text(SETTINGS_FILE)?,
             agent: text(AGENT_FILE)?,

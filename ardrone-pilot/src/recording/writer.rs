@@ -84,6 +84,7 @@ impl<W: Write + Seek> LogWriter<W> {
             ("start_ns", start_ns.to_string()),
             (VEHICLE, header.vehicle.to_string()),
             ("plan", header.plan_name.clone()),
+            ("mission_agent", header.mission_agent.clone()),
             ("z_origin", header.z_origin.name().to_owned()),
             ("drone", header.drone.clone()),
         ];

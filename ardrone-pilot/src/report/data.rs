@@ -18,7 +18,7 @@ use super::series::Scales;
 use super::spans::{Strip, beliefs, states};
 use super::words::{self, spoken};
 use crate::flights::is_in_the_air;
-use crate::recording::{Log, Tags, Tick};
+use crate::recording::{Entry, Log, Tags, Tick};
 use crate::settings::Settings;
 
 /// Maximum length of a plan's text and maximum number of plans. They bound the size of the page for a forged
@@ -57,6 +57,8 @@ pub(super) struct Flight<'a> {
     pub(super) tags: Vec<(f64, &'a Tags)>,
     /// Other vehicles.
     pub(super) others: Vec<Other>,
+    /// Steps of the mission at the end: those up to the last one that was carried out, and all.
+    pub(super) steps: [usize; 2],
     /// Times of the first and of the last tick, in seconds since the recording's start.
     pub(super) begin_s: f64,
     pub(super) end_s: f64,
@@ -126,6 +128,7 @@ impl<'a> Flight<'a> {
             events,
             tags: tags(log, span),
             others: others(log, span),
+            steps: steps_done(log, span.1, steps.len()),
             begin_s,
             end_s,
             rows,
@@ -248,6 +251,31 @@ impl Decision {
         (&self.step, &self.command, &self.plans, &self.said, &self.warnings)
             == (&other.step, &other.command, &other.plans, &other.said, &other.warnings)
     }
+}
+
+/// As the vehicle counts them at a moment of the recording ([`FlightReport`](autopilot::vehicle::FlightReport)): steps up to the
+/// last one that was carried out, and all, of the plan with which the recording begins or of the last mission.
+fn steps_done(log: &Log, until: Duration, of_plan: usize) -> [usize; 2] {
+    let mut done = [0, of_plan];
+    let mut before: &[String] = &[];
+    for (_, entry) in log.entries.iter().take_while(|(at, _)| *at <= until) {
+        match entry {
+            Entry::Mission(mission) => {
+                // What is appended leaves the count as it is.
+                if !mission.steps.starts_with(before) {
+                    done[0] = 0;
+                }
+                before = &mission.steps;
+                done[1] = mission.steps.len();
+            }
+            Entry::Event { text, .. } => {
+                let step = text.strip_prefix("step ").and_then(|rest| rest.strip_suffix(" done"));
+                done[0] = step.and_then(|step| step.parse().ok()).unwrap_or(done[0]);
+            }
+            _ => {}
+        }
+    }
+    done
 }
 
 /// The commands of a plan, numbered like the mission's steps.

@@ -46,7 +46,7 @@ pub(super) fn html(
     pictures: &[EmbeddedPicture],
 ) -> String {
     let mut page = String::new();
-    let title = escaped(&title(about));
+    let title = escaped(&title(log, about));
     // Writing to a string cannot fail.
     _ = write!(
         page,
@@ -166,13 +166,17 @@ fn findings(page: &mut String, findings: &[Finding]) {
 }
 
 /// What was flown.
-fn title(about: &About<'_>) -> String {
-    if about.plan.is_empty() { "flown by orders".to_owned() } else { about.plan.to_owned() }
+fn title(log: &Log, about: &About<'_>) -> String {
+    match (about.plan, log.mission_agent.as_str()) {
+        ("", "") => "flown by orders".to_owned(),
+        ("", agent) => format!("flown by the agent {agent}"),
+        (plan, _) => plan.to_owned(),
+    }
 }
 
 /// Summary at the top.
 fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
-    let (plan, drone) = (escaped(&title(about)), escaped(&log.drone));
+    let (plan, drone) = (escaped(&title(log, about)), escaped(&log.drone));
     _ = write!(
         page,
         "<h1>{plan}</h1>\n<p class=\"faint\">{}{}, {drone}, ardrone-pilot {}</p>\n",
@@ -193,11 +197,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
     let mut fact = |name: &str, value: String| {
         _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
     };
-    let done = flight
-        .events
-        .iter()
-        .filter(|event| event.text.starts_with("step ") && event.text.ends_with(" done"));
-    fact("steps done", done.count().to_string());
+    let [done, all] = flight.steps;
+    fact("steps done", format!("{done} of {all}"));
     fact("in the air", format!("{:.1} s", flight.flown_s()));
     if let Some((begin, end)) = flight.battery_percent() {
         fact("battery", format!("{begin} to {end} %"));

@@ -9,6 +9,7 @@ mod room;
 mod section;
 mod sections;
 mod tags;
+mod version;
 
 use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{SurveyedTag, VehicleConfig, VehicleName};
@@ -23,11 +24,16 @@ use self::section::{Declared, Section};
 use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Station, Vehicle, Video};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
+pub(crate) use self::version::{Version, read_versioned};
+
+/// The version of `pilot.toml` that is read.
+pub const VERSION: u32 = 1;
 
 /// Content of a `pilot.toml`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
+    version: Version<VERSION>,
     vehicle: Vehicle,
     fence: Fence,
     room: Room,
@@ -93,10 +99,11 @@ impl Settings {
     /// # Errors
     /// [`SettingsError`] with all reasons.
     pub fn parse(path: &str, text: &str) -> Result<Self, SettingsError> {
-        let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
+        let settings: Self =
+            read_versioned::<_, VERSION>(text).map_err(|error| SettingsError::Syntax {
+                path: path.to_owned(),
+                message: error.to_string().trim_end().to_owned(),
+            })?;
         let reasons = settings.reasons_against();
         if reasons.is_empty() {
             Ok(settings)
@@ -116,6 +123,8 @@ impl Settings {
             if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
                 let section = DECLARED.into_iter().find(|(section, _)| *section == name);
                 values = section.map(|(_, values)| values).unwrap_or_default();
+            } else if line.starts_with("version") {
+                text += "# Version of this file's format, which may be left out.\n";
             } else if let Some((name, _)) = line.split_once(" = ") {
                 let value = values.iter().find(|value| value.name == name);
                 for comment in value.map(|value| value.comments).unwrap_or_default() {
@@ -221,6 +230,7 @@ impl Settings {
     /// All sections but the tags, whose number varies.
     fn sections(&self) -> [&dyn Section<VehicleConfig>; 10] {
         let Self {
+            version: _,
             vehicle,
             fence,
             room,
@@ -244,6 +254,7 @@ impl Settings {
             section.apply(&mut config);
         }
         config.estimator.tags = self.tags.config();
+        config.limits.speed_max_m_s = config.cascade.speed_max_m_s;
         config
     }
 
@@ -290,7 +301,8 @@ mod tests {
         let default = Settings::default().pilot_config(ZOrigin::Hover);
         let table: toml::Table = toml::from_str(&Settings::default().to_toml().unwrap()).unwrap();
         let mut tried = 0;
-        for (section, values) in table.iter().filter(|(section, _)| *section != "tags") {
+        let is_tried = |section: &str| !["tags", "version"].contains(&section);
+        for (section, values) in table.iter().filter(|(section, _)| is_tried(section)) {
             for (name, value) in values.as_table().unwrap() {
                 let other = match value {
                     toml::Value::Float(number) => (number * 1.05).into(),
@@ -331,6 +343,10 @@ mod tests {
         for (text, said) in [
             ("[drone]\ntilt_max = 3", "line 2, column 1"),
             ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),
+            ("# mine\nversion = 2\n[drones]\nx = 1", "line 2, column 11"),
+            ("version = 2", "version 2 of this file's format: this program reads version 1"),
+            ("version = -1", "version -1 of"),
+            ("version = 1.0", "line 1, column 11"),
             ("[drone", "line 1"),
             ("[airframe]\nthrust_gain = [0.8, 0.9, 7.0]", "3 numbers where two"),
             ("[airframe]\ndrag_1_s = [0.5]", "1 numbers"),

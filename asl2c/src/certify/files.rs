@@ -4,8 +4,12 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
+use super::evidence::Evidence;
 use super::gather::{AGENT, C, COUNTEREXAMPLES, Certified, CertifyError, OWN_TESTS, TESTS};
 use super::page::page;
+use crate::JSON_VERSION;
 use crate::checksum::checksum;
 use crate::output::is_same;
 use crate::written::{self, Comment, New, is_own, marked, regular};
@@ -22,6 +26,14 @@ const CHECKSUMS: &str = "SHA256SUMS";
 /// What to do about a file that is in the way.
 const HELP: &str = "name another folder by `-o DIR`";
 
+/// The evidence as it is written.
+#[derive(Serialize)]
+struct Versioned<'a> {
+    version: u32,
+    #[serde(flatten)]
+    evidence: &'a Evidence,
+}
+
 impl Certified {
     /// Writes the files, the evidence as JSON and as a page, and the checksums of all; all or none. What an earlier
     /// certification left in the folder is replaced or removed, if nobody has changed it since and it is none of the `inputs`.
@@ -35,7 +47,11 @@ impl Certified {
         };
         let earlier = earlier(folder, inputs)?;
         let mut files = self.files.clone();
-        let json = serde_json::to_string_pretty(&self.evidence).map_err(io::Error::from);
+        let json = serde_json::to_string_pretty(&Versioned {
+            version: JSON_VERSION,
+            evidence: &self.evidence,
+        })
+        .map_err(io::Error::from);
         let json = json.map_err(failed("make", Path::new(JSON)))?;
         files.push((JSON.to_owned(), format!("{json}\n")));
         files.push((PAGE.to_owned(), page(self)));

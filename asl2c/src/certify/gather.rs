@@ -44,6 +44,9 @@ pub enum CertifyError {
     /// A header of the agent's own.
     #[error("nothing is certified: {0}")]
     Header(#[from] HeaderError),
+    /// Tools are missing: each with what to install.
+    #[error("nothing is certified:\n{}", .0.join("\n"))]
+    Tools(Vec<String>),
     /// Another tool is missing or failed.
     #[error("nothing is certified: {0}")]
     Tool(#[from] ToolError),

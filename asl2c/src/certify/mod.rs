@@ -17,3 +17,4 @@ pub(crate) use self::files::check_folder;
 pub use self::gather::{Certified, CertifyError, Limits, certify};
 pub use self::misra::Deviation;
 pub use self::reach::{Reach, Reached};
+pub(crate) use self::trust::find_tools;

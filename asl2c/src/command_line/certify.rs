@@ -9,10 +9,11 @@ use super::arguments::Certify;
 use super::prove::known_conditions;
 use super::{CommandError, NOT_CHECKED, complain_of, print, stop};
 use crate::agent::{Agent, read};
-use crate::certify::{CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder};
+use crate::certify::{
+    CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder, find_tools,
+};
 use crate::coverage::OwnTest;
 use crate::current::check_current;
-use crate::prove::Cbmc;
 
 /// Gathers the evidence, writes it and prints a summary.
 pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
@@ -24,7 +25,7 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
     // Not after an hour of proofs.
     check_folder(&asked.output, &inputs)?;
     check_current(&agent, &[], agent.folder(), None)?;
-    let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
+    let cbmc = find_tools(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let known = known_conditions(asked.invariant.as_deref())?;
     let limits = Limits { time: Duration::from_secs(asked.time), transitions: asked.length };
     let mut tell = |doing: &str| {

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use translator::{Code, Diagnostics, Located, Severity, TranslateError};
 
 use super::CommandError;
+use crate::JSON_VERSION;
 use crate::agent::ReadError;
 use crate::certify::CertifyError;
 use crate::current::StaleError;
@@ -64,6 +65,7 @@ fn located(found: &Located<'_>) -> String {
     let ((line, column), (end_line, end_column)) = (found.start(), found.end());
     let diagnostic = found.diagnostic;
     json!({
+        "version": JSON_VERSION,
         "severity": if diagnostic.severity == Severity::Error { "error" } else { "warning" },
         "code": diagnostic.code,
         "message": diagnostic.message,
@@ -82,6 +84,7 @@ fn located(found: &Located<'_>) -> String {
 /// A message without a location, as a line of JSON with the same keys.
 pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
     json!({
+        "version": JSON_VERSION,
         "severity": severity,
         "code": code,
         "message": message,

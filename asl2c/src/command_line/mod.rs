@@ -268,7 +268,9 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Verify(_)
             | CommandError::Prove(_)
-            | CommandError::Certify(CertifyError::Tool(_) | CertifyError::Contradicted { .. })
+            | CommandError::Certify(
+                CertifyError::Tool(_) | CertifyError::Tools(_) | CertifyError::Contradicted { .. }
+            )
             | CommandError::Target(_)
             | CommandError::Refused(_)
             | CommandError::Translate(TranslateError::Unprovable { .. })

@@ -11,6 +11,7 @@ use translator::{DeclaredProperty, ParsedConfiguration, ROUNDED, obligations};
 use super::arguments::Prove;
 use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print, stop};
+use crate::JSON_VERSION;
 use crate::agent::{Agent, read};
 use crate::current::check_current;
 use crate::prove::{
@@ -213,6 +214,7 @@ fn as_json(proof: &Proof, saved: &[Saved]) -> String {
         json!({ "error": saved.searched.said, "verdict": named, "trace": trace, "script": script })
     });
     let object = json!({
+        "version": JSON_VERSION,
         "properties": properties.collect::<Vec<_>>(),
         "run_time": run_time.collect::<Vec<_>>(),
         "invariant": proof.invariant,

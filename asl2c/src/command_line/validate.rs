@@ -13,6 +13,7 @@ use super::arguments::{Validate, is_json};
 use super::difference::{Search, Way};
 use super::progress::Progress;
 use super::{CommandError, NOT_CHECKED, print, stop};
+use crate::JSON_VERSION;
 use crate::agent::{Agent, read};
 use crate::current::check_current;
 use crate::prove::{Budget, Cbmc, Difference, ProveError, Validated, Watch as _, validate_watched};
@@ -193,6 +194,7 @@ fn as_json(
         None => "undecided",
     };
     let object = json!({
+        "version": JSON_VERSION,
         "c": c,
         "verdict": verdict,
         "proofs": validated.proofs,

@@ -11,6 +11,7 @@ use translator::{DeclaredProperty, Model};
 use super::arguments::Verify;
 use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print};
+use crate::JSON_VERSION;
 use crate::agent::{Agent, folder, is_system, read_system};
 use crate::run::{NetworkConditions, SystemSession, repeat};
 use crate::spin::Verdict;
@@ -173,5 +174,5 @@ fn json(shown: &[Shown]) -> String {
             })
         })
         .collect();
-    format!("{:#}\n", json!({ "properties": properties }))
+    format!("{:#}\n", json!({ "version": JSON_VERSION, "properties": properties }))
 }

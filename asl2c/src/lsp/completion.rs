@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind, CompletionParams};
 use serde_json::{Value, json};
-use translator::configuration::{Configuration, SECTIONS, SETTINGS};
+use translator::configuration::{Configuration, SECTIONS, SETTINGS, VERSION};
 use translator::system::{self, CHANNELS, ParsedSystem};
 use translator::types::{CType, TypeKind};
 
@@ -79,6 +79,13 @@ impl Items {
     fn peers(&mut self, configuration: &Configuration) {
         for peer in &configuration.peers {
             self.add(&peer.text, CompletionItemKind::EnumMember, "peer");
+        }
+    }
+
+    /// What only stands before all sections.
+    fn version(&mut self, before: &str) {
+        if !before.contains('{') {
+            self.add("version", CompletionItemKind::Keyword, &format!("version {VERSION};"));
         }
     }
 
@@ -294,6 +301,7 @@ fn in_system(
     items: &mut Items,
 ) {
     let Some((section, entry)) = entry_of(before) else {
+        items.version(before);
         for section in system::SECTIONS {
             items.add(section, CompletionItemKind::Keyword, "section");
         }
@@ -354,6 +362,7 @@ fn in_system(
 /// Names that can follow `before` in a configuration.
 fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
     let Some((section, entry)) = entry_of(before) else {
+        items.version(before);
         for section in SECTIONS {
             items.add(section, CompletionItemKind::Keyword, "section");
         }
@@ -533,7 +542,8 @@ mod tests {
             in_section(before, &configuration, &mut items);
             items.list.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
         };
-        assert!(labels("").contains("triggerables"));
+        assert!(labels("").contains("triggerables") && labels("ver").contains("version"));
+        assert!(!labels("settings { };").contains("version"), "it stands before all sections");
         assert!(labels("settings { input = a; o").contains("output"));
         assert_eq!(labels("settings { instance = "), "static context");
         assert_eq!(labels("classes { a: "), "act c all but");

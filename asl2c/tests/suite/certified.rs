@@ -234,20 +234,26 @@ fn a_missing_tool_is_no_evidence() {
     let output = command.args(["--cbmc", "./no-cbmc"]).output().unwrap();
     assert_eq!(output.status.code(), Some(3));
     assert!(files(folder.path()).is_empty());
-    if let Some(cbmc) = cbmc() {
+    // A path with gcc, but not the other tools: all are named at once, CBMC too.
+    let tools = tempfile::tempdir().unwrap();
+    for tool in ["gcc", "sh"] {
+        let found = Command::new("which").arg(tool).output().unwrap().stdout;
+        let found = String::from_utf8(found).unwrap();
+        std::os::unix::fs::symlink(found.trim(), tools.path().join(tool)).unwrap();
+    }
+    for cbmc in cbmc().into_iter().chain(["./no-cbmc".into()]) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
         command.arg("certify").arg(gallery("lift")).arg("-o").arg(folder.path());
-        // A path with gcc, which CBMC needs, but not the other tools.
-        let tools = tempfile::tempdir().unwrap();
-        for tool in ["gcc", "sh"] {
-            let found = Command::new("which").arg(tool).output().unwrap().stdout;
-            let found = String::from_utf8(found).unwrap();
-            std::os::unix::fs::symlink(found.trim(), tools.path().join(tool)).unwrap();
-        }
-        let output = command.arg("--cbmc").arg(cbmc).env("PATH", tools.path()).output().unwrap();
+        command.arg("--cbmc").arg(&cbmc).env("PATH", tools.path());
+        let output = command.output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(3), "{said}");
-        assert!(said.contains("apt install"), "{said}");
+        for package in ["gcc", "cppcheck", "valgrind", "frama-c-base"] {
+            assert!(said.contains(&format!("(`apt install {package}`)")), "{package}: {said}");
+        }
+        assert!(!said.contains("gcc cannot be run"), "{said}");
+        let without_cbmc = cbmc.ends_with("no-cbmc");
+        assert_eq!(said.contains("CBMC 6 or later is needed"), without_cbmc, "{said}");
         assert!(files(folder.path()).is_empty());
     }
 }

@@ -12,11 +12,15 @@ fn printed(command: &str, folder: &Path, cbmc: &Path) -> String {
         Some((command, file)) => (command, Some(file)),
         None => (command, None),
     };
-    let arguments = command.strip_prefix("asl2c ").unwrap().split(' ');
-    let arguments: Vec<&str> = arguments.collect();
-    let mut program = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    let (program, arguments) = command.split_once(' ').unwrap_or((command, ""));
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let mut program = match program {
+        "asl2c" => Command::new(env!("CARGO_BIN_EXE_asl2c")),
+        "gcc" => Command::new(program),
+        own => Command::new(folder.join(own)),
+    };
     program.args(&arguments).current_dir(folder);
-    if ["prove", "validate", "certify"].contains(&arguments[0]) {
+    if arguments.first().is_some_and(|name| ["prove", "validate", "certify"].contains(name)) {
         program.arg("--cbmc").arg(cbmc);
     }
     let text = String::from_utf8(program.output().unwrap().stdout).unwrap();

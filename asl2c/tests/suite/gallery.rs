@@ -89,6 +89,7 @@ fn what_is_proved_holds_and_what_is_not_has_a_way() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(i32::from(!broken.is_empty())), "{name} {said}");
         let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(json["version"], 1);
         assert_eq!(json["run_time"], serde_json::json!([]), "{name}");
         for property in json["properties"].as_array().unwrap() {
             let own = property["name"].as_str().unwrap();

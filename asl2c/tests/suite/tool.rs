@@ -87,6 +87,7 @@ fn each_finding_is_a_line_of_json() {
     };
     let warnings = findings(asl2c(folder.path(), &["a.conf", "--message-format", "json"]));
     assert_eq!(warnings.len(), 4);
+    assert!(warnings.iter().all(|warning| warning["version"] == asl2c::JSON_VERSION));
     assert_eq!(
         (&warnings[1]["code"], &warnings[1]["line"]),
         (&"unused-variable".into(), &1.into())
@@ -101,6 +102,7 @@ fn each_finding_is_a_line_of_json() {
     );
     std::fs::remove_file(folder.path().join("a.asl")).unwrap();
     let missing = findings(asl2c(folder.path(), &["a.conf", "--message-format", "json"]));
+    assert_eq!(missing[0]["version"], 1);
     assert!(missing[0]["message"].as_str().unwrap().contains("cannot read"));
 }
 
@@ -173,7 +175,8 @@ fn all_lines_of_json_are_alike() {
                     "line",
                     "message",
                     "rendered",
-                    "severity"
+                    "severity",
+                    "version"
                 ]
             );
             assert!(finding["code"].as_str().is_some_and(|code| !code.is_empty()), "{line}");

@@ -37,6 +37,7 @@ fn the_c_of_the_gallery_does_what_its_agents_say() {
         let output = command.current_dir(GALLERY).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", shown(&output));
         let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(json["version"], 1);
         assert_eq!((&json["verdict"], &json["timeouts"]), (&"proved".into(), &0.into()));
         // It has few events.
         let fewest = if name == "relief" { 6 } else { 10 };

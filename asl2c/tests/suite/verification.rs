@@ -90,6 +90,7 @@ fn a_failure_is_told_in_the_agents_own_terms() {
     ");
     let Some(output) = verify(&configuration, agent, &["--json"]) else { return };
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["version"], 1);
     let property = &json["properties"][0];
     assert_eq!((&property["name"], &property["verdict"]), (&"p".into(), &"fails".into()));
     assert_eq!(property["trace"][4]["line"], 8);

@@ -28,7 +28,13 @@ pub struct Activity {
     place: Option<Pose>,
     /// Time of the last command of a search, in milliseconds.
     searched_ms: Option<i64>,
+    /// A take-off that was broken off on the ground: when it began and when that was, in milliseconds.
+    broken_off_ms: Option<(i64, i64)>,
 }
+
+/// A take-off that is ordered again so soon goes on, in milliseconds: another mission begins with one, and a drone that waits for
+/// its place does not wait longer for that.
+const AT_ONCE_MS: i64 = 200;
 
 impl Activity {
     /// Duration of this activity in milliseconds; 0 if another one is current.
@@ -84,6 +90,16 @@ impl Activity {
         *self = Self { searched_ms: self.searched_ms, ..Self::default() };
     }
 
+    /// Ends the activity on the ground.
+    pub(super) fn stand_by(&mut self, now_ms: i64) {
+        let broken_off_ms = match self.pursuit {
+            Some((Pursuit::TakingOff, since_ms)) => Some((since_ms, now_ms)),
+            _ => self.broken_off_ms,
+        };
+        self.end();
+        self.broken_off_ms = broken_off_ms;
+    }
+
     pub(super) fn go_on(&mut self, pursuit: Pursuit, now_ms: i64) {
         if pursuit == Pursuit::Searching {
             self.searched_ms = Some(now_ms);
@@ -99,7 +115,10 @@ impl Activity {
             let goes_on = pursuit == Pursuit::Searching;
             self.stayed_ms = if goes_on { self.lasted_ms(Pursuit::Staying, now_ms) } else { 0 };
         }
-        self.pursuit = Some((pursuit, now_ms));
+        let broken_off_ms = self.broken_off_ms.take().filter(|(_, at_ms)| {
+            pursuit == Pursuit::TakingOff && now_ms.saturating_sub(*at_ms) <= AT_ONCE_MS
+        });
+        self.pursuit = Some((pursuit, broken_off_ms.map_or(now_ms, |(since_ms, _)| since_ms)));
         self.place = None;
     }
 }

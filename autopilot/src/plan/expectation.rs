@@ -7,7 +7,7 @@ use kinematics::{Pose, wrap_deg};
 use nalgebra::Vector2;
 
 use super::dry_run::DryRun;
-use super::interpreter::AgentOrder;
+use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits, Plan, Step};
 use crate::agent::ApproachSettings;
 
@@ -95,7 +95,7 @@ impl Expectations {
             Some(AgentOrder::FindTag) => (0.0, SEARCH_S),
             Some(AgentOrder::LandOnTag) => {
                 let above = Pose { z_m: before.z_m, ..place };
-                let (leg_m, time_s) = leg(&before, &above, self.run.interpreter().max_control());
+                let (leg_m, time_s) = leg(&before, &above, self.run.interpreter());
                 target = Some(above);
                 let down_s = LANDING_S + before.z_m / LANDING_M_S;
                 (leg_m + before.z_m, time_s + SETTLING_S + down_s)
@@ -103,7 +103,7 @@ impl Expectations {
             Some(AgentOrder::GoTo(to)) => {
                 (target, outside) = (Some(to.pose), to.is_corrected());
                 stay_s = self.settings().stay_time_ms as f64 / 1000.0;
-                leg(&before, &to.pose, self.run.interpreter().max_control())
+                leg(&before, &to.pose, self.run.interpreter())
             }
             None => (0.0, 0.0),
         };
@@ -148,20 +148,19 @@ pub fn battery_percent(time: Duration) -> f64 {
     time.as_secs_f64() * PERCENT_PER_S
 }
 
-fn leg(from: &Pose, to: &Pose, share: f64) -> (f64, f64) {
+/// Length of a leg in metres, and its duration in seconds.
+fn leg(from: &Pose, to: &Pose, flown: &Interpreter) -> (f64, f64) {
+    let share = flown.max_control();
     let across_m = (to.x_m - from.x_m).hypot(to.y_m - from.y_m);
     let upwards_m = (to.z_m - from.z_m).abs();
     let turn_deg = wrap_deg(to.yaw_deg - from.yaw_deg);
     let moves = [
-        (across_m, ACROSS_S, ACROSS_M_S),
-        (upwards_m, UPWARDS_S, UPWARDS_M_S),
-        (turn_deg.abs(), TURN_S, TURN_DEG_S),
+        (across_m, ACROSS_S, (ACROSS_M_S * share).min(flown.speed_limit_m_s())),
+        (upwards_m, UPWARDS_S, UPWARDS_M_S * share),
+        (turn_deg.abs(), TURN_S, TURN_DEG_S * share),
     ];
-    let times = moves.map(
-        |(way, least_s, speed)| {
-            if way > 0.0 { least_s + way / (speed * share) } else { 0.0 }
-        },
-    );
+    let times =
+        moves.map(|(way, least_s, speed)| if way > 0.0 { least_s + way / speed } else { 0.0 });
     (across_m.hypot(upwards_m), times.into_iter().fold(0.0, f64::max))
 }
 
@@ -183,6 +182,22 @@ mod tests {
         for (time, expected) in times(plan).into_iter().zip(expected) {
             assert!((time - expected).abs() < 1e-6, "{time} {expected}");
         }
+    }
+
+    #[test]
+    fn a_limit_of_the_speed_makes_a_way_longer() {
+        let plan = "takeoff\nsetSpeed 0.4\ngoto 0 2 0 0\nsetStayTime 0\ngoto 0 2 1 0\nsetSpeed 5\n\
+                    goto 0 0 1 0\nland\n";
+        let slow = times(plan);
+        assert!((slow[2] - (0.8 + 2.0 / 0.4 + 2.0)).abs() < 1e-6, "{slow:?}");
+        assert!((slow[4] - (0.3 + 1.0 / 0.65)).abs() < 1e-6, "upwards it is another: {slow:?}");
+        assert!((slow[6] - (0.8 + 2.0 / 2.0)).abs() < 1e-6, "{slow:?}");
+        let limits = FlightLimits { speed_max_m_s: 0.5, ..FlightLimits::default() };
+        let plan = Plan::parse("plan", "takeoff\ngoto 0 2 0 0\nsetMaxControl 0.5\ngoto 0 0 0 0\n");
+        let times = plan.unwrap().expectations(&limits);
+        let times: Vec<f64> = times.iter().map(|step| step.time.as_secs_f64()).collect();
+        assert!((times[1] - (0.8 + 2.0 / 0.5 + 2.0)).abs() < 1e-6, "{times:?}");
+        assert!((times[3] - (0.8 + 2.0 / 0.25 + 2.0)).abs() < 1e-6, "{times:?}");
     }
 
     #[test]

@@ -145,6 +145,12 @@ impl Interpreter {
         }
     }
 
+    /// The least of all current limits of the horizontal speed, in m/s.
+    pub(crate) fn speed_limit_m_s(&self) -> f64 {
+        let of_controller_m_s = self.limits.speed_max_m_s * self.max_control;
+        self.speed_m_s.map_or(of_controller_m_s, |speed_m_s| speed_m_s.min(of_controller_m_s))
+    }
+
     /// Current limit of the horizontal speed in m/s, besides that of the controller.
     pub(crate) fn speed_m_s(&self) -> Option<f64> {
         self.speed_m_s

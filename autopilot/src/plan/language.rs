@@ -9,6 +9,9 @@ use nalgebra::Vector2;
 
 use super::Command;
 
+/// The version of the language that is read: `version 1` may stand before all other commands.
+pub const VERSION: u32 = 1;
+
 /// Largest coordinate, beyond the range of the drone's Wi-Fi.
 const MAX_DISTANCE_M: f64 = 100.0;
 const MAX_ANGLE_DEG: f64 = 3600.0;
@@ -53,6 +56,8 @@ pub(super) enum Meaning {
     Step(Command),
     /// A tag, which is no step. Not a number where its heading is not given.
     Tag(SurveyedTag),
+    /// The version of the language, as written.
+    Version(f64),
     /// The commands before it are dropped.
     Clears,
     /// Nothing in flight.
@@ -283,6 +288,13 @@ pub const LANGUAGE: &[Declaration] = &[
         name: "lockScaleFP",
         help: "nothing",
         note: Some("does nothing; there is no visual map to scale"),
+        ..ALONE
+    },
+    Declaration {
+        name: "version",
+        help: "the version of this language, before all other commands",
+        numbers: &[number("number", "", 0.0, f64::MAX)],
+        meaning: |[number, ..]| Meaning::Version(number),
         ..ALONE
     },
 ];

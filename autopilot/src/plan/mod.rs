@@ -34,7 +34,7 @@ pub(crate) use expectation::expected_time;
 pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
-pub use language::{Declaration, LANGUAGE, Number};
+pub use language::{Declaration, LANGUAGE, Number, VERSION};
 pub use tags::{LOOK_AROUND_M, TagUse, given_tag_warnings};
 
 /// A flight plan without errors.

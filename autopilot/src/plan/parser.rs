@@ -3,7 +3,7 @@
 use diagnostic::{Diagnostic, Figures, Span, beyond, closest};
 use estimator::SurveyedTag;
 
-use super::language::{Declaration, LANGUAGE, Meaning, Number};
+use super::language::{Declaration, LANGUAGE, Meaning, Number, VERSION};
 use super::{Command, Step};
 
 /// Largest plan. A plan is read by people and flown on one battery.
@@ -19,6 +19,8 @@ pub(super) struct Line {
     pub(super) command: Option<Command>,
     /// The tag that a `tag` declares, which is no step.
     pub(super) tag: Option<SurveyedTag>,
+    /// The version of the language that it names.
+    version: Option<f64>,
     /// It drops the commands before it.
     pub(super) clears: bool,
     /// Why somebody who knows `tum_ardrone` may be surprised.
@@ -40,6 +42,7 @@ impl Line {
             text,
             command: if let Meaning::Step(command) = meaning { Some(command) } else { None },
             tag: if let Meaning::Tag(tag) = meaning { Some(tag) } else { None },
+            version: if let Meaning::Version(number) = meaning { Some(number) } else { None },
             clears: meaning == Meaning::Clears,
             note: declaration.note,
         }
@@ -56,18 +59,44 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
     let mut lines = Vec::new();
     let mut diagnostics = Vec::new();
     let mut start = 0;
+    let mut is_begun = false;
     for (index, raw) in text.split('\n').enumerate() {
         if index >= MAX_LINES {
             diagnostics.push(too_long(start));
             break;
         }
         match parse_line(raw, start, index + 1) {
-            Ok(line) => lines.extend(line),
-            Err(diagnostic) => diagnostics.push(diagnostic),
+            Ok(None) => {}
+            Ok(Some(line)) => {
+                match line.version {
+                    Some(_) if is_begun => diagnostics.push(late_version(&line)),
+                    Some(version) if version != f64::from(VERSION) => {
+                        // Nothing of a text of another version can be relied on.
+                        return (Vec::new(), vec![other_version(version, &line)]);
+                    }
+                    _ => lines.push(line),
+                }
+                is_begun = true;
+            }
+            Err(diagnostic) => {
+                diagnostics.push(diagnostic);
+                is_begun = true;
+            }
         }
         start += raw.len() + 1;
     }
     (lines, diagnostics)
+}
+
+fn late_version(line: &Line) -> Diagnostic {
+    Diagnostic::error("the version stands behind another command", line.span.clone())
+        .help("put it before all commands")
+}
+
+fn other_version(version: f64, line: &Line) -> Diagnostic {
+    let message = format!("this plan has version {} of its language", Figures(version));
+    Diagnostic::error(message, line.span.clone())
+        .help(format!("this program reads version {VERSION}"))
 }
 
 /// The problem of a text that goes on at `start` behind its last line.

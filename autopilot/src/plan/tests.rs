@@ -25,6 +25,28 @@ fn all_commands_and_comments_are_read() {
     assert_eq!(parsed[4], Command::SetReferenceHere);
 }
 
+#[test]
+fn a_plan_may_name_its_version_before_all_commands() {
+    let plan = "takeoff\nland\n";
+    assert_eq!(commands(&format!("# today\nversion 1 // of plans\n{plan}")), commands(plan));
+    let text = |version: &str| format!("{version}\nflyTo the moon\n{plan}");
+    for (version, named) in [("version 2", "2"), ("version 0", "0"), ("version 1.5", "1.5")] {
+        let error = error(&text(version));
+        assert!(
+            error.contains(&format!("error: this plan has version {named} of its language")),
+            "{error}"
+        );
+        assert!(error.contains("plan.txt:1:1"), "{error}");
+        assert!(error.contains("this program reads version 1"), "{error}");
+        assert!(!error.contains("flyTo"), "nothing else of it is judged: {error}");
+    }
+    for late in ["takeoff\nversion 1\nland", "version 1\nversion 1\ntakeoff\nland"] {
+        let error = error(late);
+        assert!(error.contains("plan.txt:2:1") && error.contains("before all commands"), "{error}");
+    }
+    assert!(error("version one\ntakeoff").contains("`one` is not a number"));
+}
+
 /// In 309 digits nobody finds the reason.
 #[test]
 fn a_huge_number_is_refused_in_a_few_digits() {
@@ -107,7 +129,7 @@ fn every_bad_line_is_reported_with_line_column_and_advice() {
     7 | fly
       | ^^^
       |
-      = help: commands are: takeoff, land, goto, moveBy, moveByRel, hold, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
+      = help: commands are: takeoff, land, goto, moveBy, moveByRel, hold, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP, version
     "
     );
 }

@@ -191,10 +191,12 @@ impl VehicleConfig {
 
 impl Default for VehicleConfig {
     fn default() -> Self {
+        let cascade = CascadeConfig::default();
+        let speed_max_m_s = cascade.speed_max_m_s;
         Self {
             name: VehicleName::default(),
             system: 1,
-            limits: FlightLimits::default(),
+            limits: FlightLimits { speed_max_m_s, ..FlightLimits::default() },
             separation_m: 1.5,
             peers: Vec::new(),
             read_back: true,
@@ -204,7 +206,7 @@ impl Default for VehicleConfig {
             ultrasound: None,
             station: StationPatience::default(),
             estimator: EstimatorConfig::default(),
-            cascade: CascadeConfig::default(),
+            cascade,
         }
     }
 }

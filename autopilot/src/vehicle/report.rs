@@ -53,7 +53,7 @@ impl FlightReport {
         self.flight_time_at(self.ended_at?)
     }
 
-    /// From the take-off order until now, or to the end; `None` before the take-off has ended.
+    /// From the take-off order until now, or to the end; `None` before the drone has left the ground.
     pub fn flight_time_at(&self, now: Duration) -> Option<Duration> {
         self.ended_at.unwrap_or(now).checked_sub(self.took_off_at?)
     }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
 
-use super::life::{Departure, Life, Preparation, Watched, Why};
+use super::life::{Departure, Flying, Life, Preparation, Watched, Why};
 use super::readiness::NotReady;
 use super::{
     AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured, Danger,
@@ -193,8 +193,16 @@ impl Vehicle {
         is_known && (self.has_cut(now) || self.on_ground() && heard_later)
     }
 
-    /// The flight's time stops once the flight is over, and goes on if the mission takes off again.
+    /// The flight's time begins with the take-off that lifts the drone, even if that is never ended, stops once the flight is
+    /// over, and goes on if the mission takes off again.
     fn watch_flight_time(&mut self, now: Duration) {
+        if let Life::Flying(Flying { due: Some(active), .. }) = &self.life
+            && active.due.order == AgentOrder::TakeOff
+            && !self.on_ground()
+        {
+            let ordered_at = active.since;
+            self.flight.report_mut().took_off_at.get_or_insert(ordered_at);
+        }
         if !self.life.is_in_flight() || self.flight.report().took_off_at.is_none() {
             return;
         }

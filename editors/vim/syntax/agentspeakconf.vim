@@ -9,6 +9,7 @@ syntax match agentspeakconfNumber /\<\d\+\(\.\d\+\)\?\>/
 syntax match agentspeakconfType /\<\h\w*_t\>/
 syntax keyword agentspeakconfType void bool char short int long float double signed unsigned const struct
 syntax match agentspeakconfSection /\<\(settings\|includes\|structs\|basics\|classes\|peers\|messages\|types\|settables\|perceived\|triggerables\|preemptive\|properties\)\ze\_s*{/
+syntax match agentspeakconfSection /\<version\ze\_s\+\d/
 syntax match agentspeakconfSetting /\<\(trace\|clock\|input\|output\|header\|basics\|rust\|matrix\|instance\|inbox\|max_events\)\ze\s*=/
 syntax keyword agentspeakconfFormula exactly_one at_most_one at_least_one never within only_after all_handled unless until
 syntax match agentspeakconfFormula /\<all\ze\_s\+\h\w*\_s\+but\>/

@@ -8,6 +8,7 @@ syntax match agentspeaksystemAction /\.\@1<=\s*\h\w*/
 syntax match agentspeaksystemTrigger /\.\@1<=[-+]!\?\s*\h\w*/
 syntax match agentspeaksystemNumber /\<\d\+\>/
 syntax match agentspeaksystemSection /\<\(agents\|channels\|properties\)\ze\_s*{/
+syntax match agentspeaksystemSection /\<version\ze\_s\+\d/
 syntax match agentspeaksystemSetting /\<\(capacity\|losses\|delay\)\ze\s*=/
 syntax match agentspeaksystemFormula /\<\(never_together\|within\)\ze\_s*(/
 syntax match agentspeaksystemAny /=\s*\zsany\>/

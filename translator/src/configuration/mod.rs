@@ -18,7 +18,7 @@
 //! properties { one_command: exactly_one(at_command); };
 //! ```
 //!
-//! Sections may appear in any order and may be missing or empty, except `settings`.
+//! Sections may appear in any order and may be missing or empty, except `settings`. `version 1;` may stand before them.
 
 mod c_type;
 mod declarations;
@@ -36,6 +36,7 @@ use diagnostic::Span;
 
 pub use parser::{SECTIONS, parse};
 pub use properties::{CallBound, Cause, Comparison, DeclaredProperty, Formula, Operand, Property};
+pub use scanner::VERSION;
 pub use settings::SETTINGS;
 pub use version::MessagesVersion;
 

@@ -3,7 +3,7 @@
 use diagnostic::{Diagnostic, Span, is_printable};
 
 use super::outputs::check_outputs;
-use super::scanner::{Parsed, Scanner, advice};
+use super::scanner::{Parsed, Scanner, unknown_section};
 use super::{Configuration, ExternalTrigger, Message};
 use crate::code::Code;
 use crate::syntax::ast::Name;
@@ -54,6 +54,10 @@ pub(super) struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     fn run(&mut self) {
+        if let Err(diagnostic) = self.scanner.version() {
+            self.diagnostics.push(diagnostic);
+            return;
+        }
         loop {
             match self.section() {
                 Ok(true) => {}
@@ -88,13 +92,12 @@ impl<'a> Parser<'a> {
         let name = self.scanner.word("a section name")?;
         let section: &'a str = &self.scanner.text[name.span.clone()];
         if !SECTIONS.contains(&section) {
-            return Err(Code::UnknownSection
-                .at(format!("unknown section `{section}`"), name.span)
-                .help(if ["agents", "channels"].contains(&section) {
-                    "this is a system of agents: `asl2c run` and `asl2c verify` know it, as `NAME.system`".to_owned()
-                } else {
-                    advice(section, &SECTIONS)
-                }));
+            let unknown = unknown_section(name, &SECTIONS);
+            return Err(if ["agents", "channels"].contains(&section) {
+                unknown.help("this is a system of agents: `asl2c run` and `asl2c verify` know it, as `NAME.system`")
+            } else {
+                unknown
+            });
         }
         if self.seen.contains(&section) {
             return Err(Code::DeclaredTwice
@@ -241,6 +244,27 @@ mod tests {
         let (configuration, diagnostics) = parse(&text);
         assert_eq!(diagnostics, []);
         assert_eq!(configuration.settings.output, "my-a.c");
+    }
+
+    #[test]
+    fn a_configuration_may_name_its_version() {
+        for text in ["version 1;", "\u{feff}// of today\nversion /* here */ 1 ;", "version 01;"] {
+            assert_eq!(messages(&format!("{text} {MINIMAL}")), [""; 0], "{text}");
+        }
+        for (text, place) in [("version 2;", 8..9), ("version\n  99999999999;", 10..21)] {
+            let (_, found) = parse(&format!("{text} colours {{ }}; {MINIMAL}"));
+            assert_eq!(found.len(), 1, "nothing else of it is judged: {found:?}");
+            assert_eq!((found[0].span.clone(), found[0].code), (place, "other-version"));
+            assert_eq!(found[0].help.as_deref(), Some("this program reads version 1"));
+        }
+        for (text, expected) in [
+            ("version;", "expected the number of a version, found `;`"),
+            ("version = 1;", "expected the number of a version, found `=`"),
+            ("version 1", "expected `;`, found `settings`"),
+        ] {
+            assert_eq!(messages(&format!("{text} {MINIMAL}")), [expected], "{text}");
+        }
+        assert_eq!(messages(&format!("{MINIMAL} version 1;")), ["unknown section `version`"]);
     }
 
     #[test]

@@ -6,6 +6,9 @@ use super::ExternalTrigger;
 use crate::code::Code;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 
+/// The version of the language of configurations and systems that is read: `version 1;`.
+pub const VERSION: u32 = 1;
+
 pub(crate) type Parsed<T> = Result<T, Diagnostic>;
 
 /// A position in a text.
@@ -62,6 +65,33 @@ impl<'a> Scanner<'a> {
                 return Ok(());
             }
         }
+    }
+
+    /// `version 1;`, which may stand before all sections. Nothing of a text of another version can be relied on.
+    pub(crate) fn version(&mut self) -> Parsed<()> {
+        let begin = self.position;
+        // A comment that is not closed is told when sections are looked for.
+        let is_there = self.word("").is_ok_and(|word| word.text == "version");
+        if !is_there {
+            self.position = begin;
+            return Ok(());
+        }
+        self.skip_blanks()?;
+        let rest = self.rest();
+        let length = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        if length == 0 {
+            return Err(self.unexpected("the number of a version"));
+        }
+        let (number, place) = (&rest[..length], self.position..self.position + length);
+        self.position = place.end;
+        self.expect(";")?;
+        if number.parse() == Ok(VERSION) {
+            return Ok(());
+        }
+        let shown: String = number.chars().take(12).collect();
+        Err(Code::OtherVersion
+            .at(format!("this text has version {shown} of its language"), place)
+            .help(format!("this program reads version {VERSION}")))
     }
 
     /// Continues behind the next `;`, or before the `}` that ends the section.
@@ -128,6 +158,16 @@ pub(crate) fn is_word_start(character: char) -> bool {
 
 pub(crate) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
+}
+
+/// A section of this name is none of the `known` ones.
+pub(crate) fn unknown_section(name: Name, known: &[&str]) -> Diagnostic {
+    let help = if name.text == "version" {
+        "the version stands before all sections".to_owned()
+    } else {
+        advice(&name.text, known)
+    };
+    Code::UnknownSection.at(format!("unknown section `{}`", name.text), name.span).help(help)
 }
 
 /// Help for an unknown word.

@@ -80,6 +80,7 @@ pub(super) fn tokens(text: &str) -> (Vec<Token<'_>>, Gap<'_>) {
             (_, ";" | "," | ":" | ")" | "]" | "." | "(") => Role::Close,
             (_, "{") => Role::Apart,
             (_, "}") => Role::End,
+            ("version", _) if !is_in_section => Role::Apart,
             _ if !is_in_section => Role::Section,
             ("{" | ";", _) => Role::Entry,
             (",", _) if !is_in_tags => Role::Argument,

@@ -172,6 +172,7 @@ fn sections_are_one_line_or_one_for_each_entry() {
         "agents { a: x.conf; b: two words.conf; };\nchannels { capacity = 3; losses = any; }\n\n\
          properties { p [R-1, R-2.a]: never_together(a.x, b.y); };\n",
     );
+    check_system("version\n 1 ;agents{a:x.conf;}", "version 1;\nagents { a: x.conf; }\n");
     check_system(
         "agents\n{\n\na: x.conf; b:\ny.conf;\n\n\nc: /* d */ z//.conf /* e */;\n\n} channels { };",
         "agents {\n  a: x.conf;\n  b: y.conf;\n\n  c: /* d */ z//.conf /* e */;\n}\nchannels { };\n",

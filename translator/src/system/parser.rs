@@ -4,7 +4,7 @@ use diagnostic::Diagnostic;
 
 use super::{Agent, AgentAction, AgentCause, Channels, Declared, ROOM, SystemFormula};
 use crate::code::Code;
-use crate::configuration::scanner::{Parsed, Scanner, advice};
+use crate::configuration::scanner::{Parsed, Scanner, advice, unknown_section};
 
 /// The sections of a system.
 pub const SECTIONS: [&str; 3] = ["agents", "channels", "properties"];
@@ -22,6 +22,9 @@ pub(super) fn parse(text: &str) -> (Declared, Vec<Diagnostic>) {
         diagnostics: Vec::new(),
     };
     parser.scanner.take("\u{feff}");
+    if let Err(diagnostic) = parser.scanner.version() {
+        return (parser.declared, vec![diagnostic]);
+    }
     while let Err(diagnostic) = parser.sections() {
         parser.diagnostics.push(diagnostic);
         // Continues behind the section, or stops if no section ends.
@@ -39,10 +42,12 @@ pub(super) fn parse(text: &str) -> (Declared, Vec<Diagnostic>) {
     (parser.declared, parser.diagnostics)
 }
 
-/// Whether a text is that of a system, however wrong, and of no agent: it begins with a section.
+/// Whether a text is that of a system, however wrong, and of no agent: it begins with a section, or with its version.
 pub fn begins_system(text: &str) -> bool {
     let mut scanner = Scanner { text, position: 0 };
     scanner.take("\u{feff}");
+    // A system of another version is one, too.
+    _ = scanner.version();
     let section = scanner.word("a section name");
     section.is_ok_and(|section| SECTIONS.contains(&section.text.as_str()))
         && scanner.expect("{").is_ok()
@@ -68,9 +73,7 @@ impl Parser<'_> {
             }
             let section = self.scanner.word("a section name")?;
             if !SECTIONS.contains(&section.text.as_str()) {
-                return Err(Code::UnknownSection
-                    .at(format!("unknown section `{}`", section.text), section.span)
-                    .help(advice(&section.text, &SECTIONS)));
+                return Err(unknown_section(section, &SECTIONS));
             }
             if self.is_second(&section.text) {
                 return Err(Code::DeclaredTwice
@@ -262,9 +265,25 @@ mod tests {
     }
 
     #[test]
+    fn a_system_may_name_its_version() {
+        let system = "agents { a: one.conf; };";
+        assert_eq!(messages(&format!("version 1;\n{system}")), [""; 0]);
+        let (_, found) = parse(&format!("version 2;\nagent {{ }}; {system}"));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!((found[0].span.clone(), found[0].code), (8..9, "other-version"));
+        assert_eq!(found[0].help.as_deref(), Some("this program reads version 1"));
+        assert_eq!(messages(&format!("{system} version 1;")), ["unknown section `version`"]);
+    }
+
+    #[test]
     fn a_system_is_known_by_its_begin() {
-        for text in ["agents {", "\u{feff}// b.\n properties /* c */ { p", "channels{capacity=9;}"]
-        {
+        for text in [
+            "version 1; agents {",
+            "version 9;\nagents{",
+            "agents {",
+            "\u{feff}// b.\n properties /* c */ { p",
+            "channels{capacity=9;}",
+        ] {
             assert!(begins_system(text), "{text}");
         }
         for text in ["", "agents.", "agents(1). +!go.", "settings {", "/* agents {"] {

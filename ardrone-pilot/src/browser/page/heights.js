@@ -52,6 +52,13 @@ const heights = (() => {
 
   // ---- Over the way.
 
+  // Both ways from the ground, that the same place is at the same length: a track begins where the take-off has ended.
+  const unrolledWays = () => {
+    const flown = flownWay();
+    const ground = flown.slice(0, 1).map(([x, y]) => [x, y, 0]);
+    return [planned().way, [...ground, ...flown]].map(unrolled);
+  };
+
   // [length so far, height] of each place of a way.
   function unrolled(way) {
     let length = 0;
@@ -64,8 +71,8 @@ const heights = (() => {
   function drawProfile() {
     const { context, width, height, colour } = prepared($("profile"));
     if (!width) return;
-    const { way, targets } = planned();
-    const [wanted, flown] = [unrolled(way), unrolled(flownWay())];
+    const { targets } = planned();
+    const [wanted, flown] = unrolledWays();
     const longest = Math.max(1, ...[wanted, flown].map((line) => line.at(-1)?.[0] ?? 0));
     const top = flight.ceiling_m;
     const x = (length) => 44 + (length / longest) * (width - 60);
@@ -173,5 +180,5 @@ const heights = (() => {
     if (isSolid) drawSolid();
   }
 
-  return { draw };
+  return { draw, unrolledWays };
 })();

@@ -100,7 +100,12 @@ impl View {
     pub(super) fn take_in(&mut self, message: &Message) -> Option<String> {
         let (line, warns) = match &message.content {
             Content::Realtime(realtime) => (printable(&realtime.to_string()).into_owned(), false),
-            Content::Said { again: true, .. } => return None,
+            Content::Said { again: true, .. } | Content::Heard { again: true, .. } => return None,
+            Content::Heard { at, line, .. } => {
+                let (from, text) =
+                    (printable(mission_agent::sender(line)), printable(mission_agent::text(line)));
+                (format!("{:6.1} s from {from}: {text}", at.as_secs_f64()), false)
+            }
             Content::Said { at, said, .. } => {
                 let text = printable(said.text());
                 (format!("{:6.1} s to {}: {text}", at.as_secs_f64(), said.to), false)

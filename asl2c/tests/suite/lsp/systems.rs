@@ -111,7 +111,7 @@ fn names_that_fit_are_offered() {
         labels.sort_unstable();
         labels.join(" ")
     };
-    assert_eq!(offered("ag|"), "agents channels properties");
+    assert_eq!(offered("ag|"), "agents channels properties version");
     assert_eq!(offered("agents { l|"), "keeper left right");
     assert_eq!(offered("agents { x: ke|"), "keeper.conf traveller.conf");
     assert_eq!(offered("channels { losses = 1; de|"), "capacity delay losses");

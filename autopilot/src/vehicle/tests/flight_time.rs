@@ -2,7 +2,7 @@
 
 use ardrone_link::at::Ref;
 
-use super::bench::{Bench, SECOND};
+use super::bench::{Bench, SECOND, START};
 use super::*;
 
 #[test]
@@ -35,6 +35,24 @@ fn the_time_of_a_flight_ends_with_the_motors_and_a_new_start_counts_anew() {
     let again = time(&bench).unwrap();
     bench.run(SECOND);
     assert!(time(&bench).unwrap() + TICK >= again + SECOND);
+}
+
+#[test]
+fn a_flight_that_is_called_off_during_its_take_off_has_a_time() {
+    let mut bench = Bench::standing_by("takeoff\nland");
+    bench.accepted(START);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+    assert_eq!(bench.vehicle.status(bench.now).flight_time, None, "it stands");
+    bench.rises();
+    bench.control_state = ControlState::TakingOff;
+    bench.run(SECOND);
+    bench.accepted(OperatorOrder::Land);
+    bench.run(SECOND);
+    bench.comes_down();
+    bench.until(5 * SECOND, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.vehicle.report().steps_done, 0);
+    let flown = bench.vehicle.report().flight_time().expect("it was in the air");
+    assert!((2 * SECOND..5 * SECOND).contains(&flown), "{flown:?}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Other vehicles in the room, as one vehicle hears them and tells of itself.
 
+use ardrone_link::at::Ref;
 use nalgebra::Vector2;
 
 use super::bench::{Bench, SECOND, START};
@@ -63,6 +64,27 @@ fn nobody_takes_off_beside_another_one() {
         assert_eq!(bench.vehicle.readiness(), [near], "it is told before");
         assert_eq!(bench.order(START), Err(refused));
     }
+}
+
+/// Otherwise who loads a plan again and again would let it wait for ever, and lift off when nobody expects it.
+#[test]
+fn a_take_off_that_waits_for_its_place_does_not_wait_longer_for_another_mission() {
+    let mut bench = Bench::in_the_air("takeoff\nland\ntakeoff\nland");
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::Land));
+    bench.comes_down();
+    let begun = bench.now;
+    for _ in 0..5 {
+        hears(&mut bench, 1.0, Presence::Stands, 3 * SECOND);
+        // It is refused once the flight has ended.
+        _ = bench.order(OperatorOrder::Load(Plan::parse("next", "takeoff\nland").unwrap()));
+        if !bench.outcomes.is_empty() {
+            break;
+        }
+    }
+    let reason = "another vehicle was in the way for too long".to_owned();
+    assert_eq!(bench.outcomes, [Outcome::Failsafe { reason }]);
+    assert!(bench.now - begun < 13 * SECOND, "{:?}", bench.now - begun);
+    assert!(!bench.commands.is_empty() && bench.vehicle.is_at_rest());
 }
 
 #[test]
