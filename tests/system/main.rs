@@ -27,6 +27,7 @@ mod mavlink;
 mod mission_agents;
 mod operator;
 mod parting;
+mod pictures;
 mod planner;
 mod plans;
 mod polygon;
