@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
 
 mod allocation;
+mod animation;
 mod architecture;
 mod browser;
 mod chromium;

@@ -4,6 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use crate::animation;
 use crate::chromium::Chromium;
 use crate::processes::{program, signal, with_page};
 
@@ -42,4 +43,20 @@ fn the_pictures_of_the_control_law_and_of_the_safety_case() {
     }
     xtask(&["fly", "--plots", "docs/plots"]);
     xtask(&["case"]);
+}
+
+#[test]
+#[ignore = "writes docs/square.svg"]
+fn the_picture_of_the_square() {
+    std::fs::write("../docs/square.svg", animation::square()).unwrap();
+}
+
+#[test]
+fn the_square_of_the_first_page_is_as_it_is_flown() {
+    let drawn = std::fs::read_to_string("../docs/square.svg").unwrap();
+    assert!(
+        drawn == animation::square(),
+        "draw it again with the_picture_of_the_square, and look at it"
+    );
+    assert!(drawn.len() < 60_000, "{} bytes", drawn.len());
 }
