@@ -143,6 +143,22 @@ fn drawn() -> BTreeSet<String> {
     drawn
 }
 
+/// What the glossary names as a field has this name in JSON and in the log.
+#[test]
+fn fields_have_the_names_of_the_glossary() {
+    let pages = pages();
+    let words = pages["docs/glossary.md"].lines().flat_map(pieces);
+    let fields = words.filter(|(is_code, word)| *is_code && word.ends_with("_m"));
+    let fields: Vec<&str> = fields.map(|(_, word)| word).collect();
+    assert_eq!(fields, ["uncertainty_m", "height_uncertainty_m"]);
+    for source in ["json.rs", "recording/schemas/tick.json"] {
+        let text = std::fs::read_to_string(repository().join("ardrone-pilot/src").join(source));
+        let missing =
+            fields.iter().find(|field| !text.as_ref().unwrap().contains(&format!("\"{field}\"")));
+        assert_eq!(missing, None, "{source}");
+    }
+}
+
 #[test]
 fn each_picture_is_shown_and_can_be_drawn_again() {
     let mut shown = BTreeSet::new();

@@ -134,7 +134,7 @@ fn two_processes_fly_the_plan() {
     let plan = plan_file(SHORT);
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(text(&output).contains("commands done   4 of 4"), "{}", text(&output));
+    assert!(text(&output).contains("steps done      4 of 4"), "{}", text(&output));
     // The drone is still available for a second flight.
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
