@@ -53,7 +53,9 @@ fn flown() -> Vec<Seen> {
     let took_off = seen.iter().position(|moment| moment.step.is_some()).unwrap();
     let mut seen: Vec<Seen> = seen.into_iter().skip(took_off).step_by(TICKS).collect();
     let start_s = seen[0].at_s;
-    seen.iter_mut().for_each(|moment| moment.at_s -= start_s);
+    for moment in &mut seen {
+        moment.at_s -= start_s;
+    }
     seen
 }
 
