@@ -25,7 +25,7 @@ def line(text):
         speed = sum(part * part for part in state["velocity_m_s"]) ** 0.5
         return (
             f"{state['vehicle']:<16} {state['presence']:<6} {right:+7.2f} {forward:+7.2f} m"
-            f" ± {state['deviation_m']:.2f} m  {speed:4.1f} m/s  {state['sent_us'] / 1e6:9.3f} s"
+            f" ± {state['uncertainty_m']:.2f} m  {speed:4.1f} m/s  {state['sent_us'] / 1e6:9.3f} s"
         )
     except (ValueError, KeyError, TypeError) as error:
         return f"no state: {error!r}"

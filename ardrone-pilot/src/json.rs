@@ -133,7 +133,7 @@ fn telemetry(at: Duration, telemetry: &Telemetry, ticks: TickHealth, steps: &[St
             "steps_done": report.steps_done,
             "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
             "final_error_m": report.final_error_m(),
-            "known": known(report),
+            "last_target": last_target(report),
         }),
         Telemetry::Waypoint(waypoint) => json!({
             "type": "target",
@@ -171,11 +171,11 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "distance_m": distance_m,
         "battery_percent": battery_percent,
         "battery_v": status.battery_v,
-        "horizontal_deviation_m": status.horizontal_deviation_m,
-        "horizontal_deviation_holds": status.rests_on.to_string(),
+        "uncertainty_m": status.uncertainty_m,
+        "uncertainty_holds": status.rests_on.to_string(),
         "rests_on": status.rests_on.name(),
         "contradicted_by": status.contradicted_by.map(CrossCheck::name),
-        "vertical_deviation_m": status.vertical_deviation_m,
+        "height_uncertainty_m": status.height_uncertainty_m,
         "tags": status.tags.as_ref().map(|tags| json!({
             "known": tags.known.count(),
             "map": Tags::from(tags).tags,
@@ -210,17 +210,17 @@ pub(crate) fn end(
         "steps_done": report.steps_done,
         "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
         "final_error_m": report.final_error_m(),
-        "known": known(report),
+        "last_target": last_target(report),
         "log": recorded.map(|recorded| recorded.path.display().to_string()),
     })
 }
 
-/// How well the place of the last target was known, and what that rests on.
-fn known(report: &FlightReport) -> Value {
+/// The uncertainty at the last target, and what it rests on.
+fn last_target(report: &FlightReport) -> Value {
     report.waypoints.last().map_or(Value::Null, |waypoint| {
         json!({
-            "deviation_m": waypoint.horizontal_deviation_m,
-            "holds": waypoint.rests_on.to_string(),
+            "uncertainty_m": waypoint.uncertainty_m,
+            "uncertainty_holds": waypoint.rests_on.to_string(),
             "rests_on": waypoint.rests_on.name(),
         })
     })

@@ -79,7 +79,7 @@ pub struct Percepts {
     /// Time since the newest plausible navdata, in milliseconds.
     pub blind_for_ms: i64,
     /// Position uncertainty: standard deviation on the worse horizontal axis, in metres.
-    pub position_sd_m: f64,
+    pub uncertainty_m: f64,
     /// How long the sticks have been at their limit without progress towards the target, in milliseconds.
     pub saturated_for_ms: i64,
     /// What lasts of the wind's disturbance, as a fraction of the acceleration at full tilt.
@@ -258,7 +258,7 @@ impl Environment for AgentStep {
             beliefs.set_battery(percent.into());
         }
         beliefs.set_blind_for(self.percepts.blind_for_ms);
-        beliefs.set_doubt(self.percepts.position_sd_m);
+        beliefs.set_doubt(self.percepts.uncertainty_m);
         beliefs.set_saturated_for(self.percepts.saturated_for_ms);
         beliefs.set_wind(self.percepts.wind);
         let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.percepts.now_ms);

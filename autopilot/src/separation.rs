@@ -59,7 +59,7 @@ pub struct Neighbour {
     /// Its velocity in the common frame: (x, y).
     pub velocity_m_s: Vector2<f64>,
     /// Standard deviation of the place on the worse axis.
-    pub deviation_m: f64,
+    pub uncertainty_m: f64,
     /// Least distance that it keeps from others, across.
     pub separation_m: f64,
     /// Whether it is in the air.
@@ -73,8 +73,8 @@ impl Neighbour {
     fn is_sound(&self) -> bool {
         let numbers = self.place_m.iter().chain(&self.velocity_m_s);
         let numbers = numbers.chain(self.claim.iter().flat_map(|claim| &claim.to_m));
-        numbers.chain([&self.deviation_m, &self.separation_m]).all(|number| number.is_finite())
-            && self.deviation_m >= 0.0
+        numbers.chain([&self.uncertainty_m, &self.separation_m]).all(|number| number.is_finite())
+            && self.uncertainty_m >= 0.0
             && self.separation_m >= 0.0
     }
 
@@ -127,7 +127,7 @@ pub(crate) struct Oneself {
     pub(crate) rank: Option<Rank>,
     pub(crate) place_m: Vector2<f64>,
     pub(crate) velocity_m_s: Vector2<f64>,
-    pub(crate) deviation_m: f64,
+    pub(crate) uncertainty_m: f64,
     /// Least distance from others.
     pub(crate) separation_m: f64,
 }
@@ -193,8 +193,8 @@ impl Neighbours {
             return Ok(());
         }
         let (place_m, reach_m) = told.reach(neighbour.at);
-        let deviation_m = told.deviation_m.hypot(neighbour.deviation_m);
-        let furthest_m = reach_m + JUMP_M + JUMP_DEVIATIONS * deviation_m;
+        let uncertainty_m = told.uncertainty_m.hypot(neighbour.uncertainty_m);
+        let furthest_m = reach_m + JUMP_M + JUMP_DEVIATIONS * uncertainty_m;
         let jump_m = (neighbour.place_m - place_m).norm();
         let stands = neighbour.presence == Presence::Stands;
         let has_jumped = jump_m > furthest_m && !stands;
@@ -267,8 +267,8 @@ fn other(now: Duration, oneself: &Oneself, known: &Known) -> Other {
     let theirs_m = to_rest_m(-neighbour.velocity_m_s.dot(&outward));
     // Of both separations the larger one, so that both draw the same line.
     let separation_m = oneself.separation_m.max(neighbour.separation_m);
-    let their_deviation_m = neighbour.deviation_m.hypot(*doubt_m);
-    let keep_m = separation_m + unsure_m([oneself.deviation_m, their_deviation_m]) + reach_m;
+    let their_uncertainty_m = neighbour.uncertainty_m.hypot(*doubt_m);
+    let keep_m = separation_m + unsure_m([oneself.uncertainty_m, their_uncertainty_m]) + reach_m;
     let doubtful_m = DEVIATIONS * doubt_m;
     let between_m = way_m.norm() - keep_m;
     // Who is too fast to stop before the other has no more room for that, and two that are too near each go half of the way

@@ -8,7 +8,7 @@
 //! - runs a model of the drone under the orders, which covers the time between and after the
 //!   measurements ([`Estimator::predicted`]), and estimates the disturbance from the difference;
 //! - identifies how this airframe responds to its sticks ([`Estimator::airframe`]);
-//! - reports its uncertainty ([`Estimator::horizontal_deviation_m`]) and whether navdata are
+//! - reports its uncertainty ([`Estimator::uncertainty_m`]) and whether navdata are
 //!   plausible ([`Estimator::trust`]).
 //!
 //! It is pure: samples and orders in, [`Estimate`]s out.
@@ -133,7 +133,7 @@ pub struct EstimatorConfig {
     pub disturbance_max_m_s2: f64,
     /// Whether the airframe is identified in flight.
     pub identify: bool,
-    /// Use of roundels on the floor, if any.
+    /// Use of tags on the floor, if any.
     pub tags: Option<TagConfig>,
     /// Where the drone stands in the world at the start; at the origin with yaw zero if `None`.
     pub start: Option<Start>,
@@ -147,9 +147,9 @@ pub struct Start {
     /// Its yaw in the world.
     pub heading_deg: f64,
     /// Standard deviation of the place on the worse axis.
-    pub deviation_m: f64,
+    pub uncertainty_m: f64,
     /// Standard deviation of the heading.
-    pub heading_deviation_deg: f64,
+    pub heading_uncertainty_deg: f64,
 }
 
 impl Start {
@@ -432,7 +432,7 @@ impl Estimator {
         estimate.yaw_deg = wrap_deg(self.world.heading_deg(yaw_deg));
     }
 
-    /// Processes the roundels in the packet of the newest sample, the first [`MAX_SIGHTS`] of them. They are ignored without
+    /// Processes the tags in the packet of the newest sample, the first [`MAX_SIGHTS`] of them. They are ignored without
     /// [`EstimatorConfig::tags`], on the ground, and if they are those of the packet before.
     pub fn see(&mut self, sights: &[Sight]) {
         let turn_deg_s = self.heading.newest_turn_deg_s();
@@ -718,8 +718,8 @@ impl Estimator {
     pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
         let status = self.world.status(now.as_secs_f64())?;
         let at_s = self.velocity_at_s.unwrap_or_default();
-        let deviation_m = self.horizontal_deviation_m(now);
-        let is_due = self.airborne && self.world.is_due(at_s, self.heading_at(at_s), deviation_m);
+        let uncertainty_m = self.uncertainty_m(now);
+        let is_due = self.airborne && self.world.is_due(at_s, self.heading_at(at_s), uncertainty_m);
         Some(TagStatus { is_due, ..status })
     }
 
@@ -731,22 +731,22 @@ impl Estimator {
 
     /// Standard deviation of the position on the worse horizontal axis, in metres. It grows with time, with the distance from
     /// the start or from where a known tag was seen last, and with silence.
-    pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
+    pub fn uncertainty_m(&self, now: Duration) -> f64 {
         let speed_m_s = self.horizontal.measured_m_s().norm();
         let known_m =
-            self.world.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
+            self.world.uncertainty_m(self.horizontal.position_m, self.estimate.above_floor_m);
         known_m.hypot(uncertainty::silence_m(self.silence_s(now), speed_m_s))
     }
 
     /// Standard deviation of the heading in the world, in degrees, as far as its start and tags decide it.
-    pub fn heading_deviation_deg(&self) -> f64 {
-        self.world.heading_deviation_deg()
+    pub fn heading_uncertainty_deg(&self) -> f64 {
+        self.world.heading_uncertainty_deg()
     }
 
     /// Standard deviation of the height, in metres.
-    pub fn vertical_deviation_m(&self, now: Duration) -> f64 {
+    pub fn height_uncertainty_m(&self, now: Duration) -> f64 {
         let order = self.orders.at(now.as_secs_f64());
-        self.altitude.deviation_m(self.silence_s(now), order)
+        self.altitude.uncertainty_m(self.silence_s(now), order)
     }
 
     /// Silence on the ground adds no uncertainty.

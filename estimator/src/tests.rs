@@ -136,12 +136,12 @@ fn a_flight_begins_where_and_as_the_drone_stands_at_the_start() {
 
 #[test]
 fn a_start_is_known_as_well_as_it_was_surveyed() {
-    let deviation_m = |deviation_m| {
-        let start = Start { deviation_m, ..Start::default() };
+    let uncertainty_m = |uncertainty_m| {
+        let start = Start { uncertainty_m, ..Start::default() };
         let config = EstimatorConfig { start: Some(start), ..EstimatorConfig::default() };
-        Estimator::new(config).horizontal_deviation_m(Duration::ZERO)
+        Estimator::new(config).uncertainty_m(Duration::ZERO)
     };
-    assert!((deviation_m(0.4).powi(2) - deviation_m(0.0).powi(2) - 0.16).abs() < 1e-9);
+    assert!((uncertainty_m(0.4).powi(2) - uncertainty_m(0.0).powi(2) - 0.16).abs() < 1e-9);
 }
 
 const PERIOD: Duration = Duration::from_micros(62_500);

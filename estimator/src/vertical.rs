@@ -248,7 +248,7 @@ impl AltitudeFilter {
     }
 
     /// Standard deviation of the height a time after the last one.
-    pub(crate) fn deviation_m(&self, silence_s: f64, order: Order) -> f64 {
+    pub(crate) fn uncertainty_m(&self, silence_s: f64, order: Order) -> f64 {
         self.covariance_after(silence_s, order)[(0, 0)].sqrt().hypot(self.agreeing.by_m)
     }
 

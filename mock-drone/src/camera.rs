@@ -1,4 +1,4 @@
-//! The bottom camera, and the roundels that the firmware detects in its pictures.
+//! The bottom camera, and the tags that the firmware detects in its pictures.
 //!
 //! A projection: points of each pattern's outline are mapped through the drone's tilt, its height and a
 //! pin-hole camera, and the firmware reports their bounding box. Parameters that a pilot cannot know (focal
@@ -16,7 +16,7 @@ use rand_distr::{Distribution as _, StandardNormal};
 use crate::airframe::Airframe;
 use crate::sensors::DelayLine;
 
-/// A roundel on the floor.
+/// A tag on the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FloorTag {
     /// Right and forward of the start.
@@ -31,14 +31,14 @@ impl FloorTag {
     /// Diameter of a pattern that fills a sheet of A4.
     pub const SIZE_M: f64 = 0.19;
 
-    /// A roundel of [`FloorTag::SIZE_M`].
+    /// A tag of [`FloorTag::SIZE_M`].
     pub fn new(right_m: f64, forward_m: f64, heading_deg: f64) -> Self {
         let place_m = Vector2::new(right_m, forward_m);
         Self { place_m, heading_deg, size_m: Self::SIZE_M }
     }
 }
 
-/// Direction in which the reported orientation of a roundel grows. Clients of the real drone contradict each
+/// Direction in which the reported orientation of a tag grows. Clients of the real drone contradict each
 /// other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrientationSign {
@@ -69,7 +69,7 @@ pub struct CameraModel {
     pub noise_units: f64,
     /// White noise of a reported orientation.
     pub orientation_noise_deg: f64,
-    /// Fraction of the pictures in which a complete roundel is detected, from 0 to 1; it falls to none from 3 m to 4.5 m.
+    /// Fraction of the pictures in which a complete tag is detected, from 0 to 1; it falls to none from 3 m to 4.5 m.
     pub seen: f64,
     /// Fraction of the pictures with a false detection, from 0 to 1.
     pub false_sights: f64,
@@ -78,7 +78,7 @@ pub struct CameraModel {
 }
 
 impl CameraModel {
-    /// Without noise, delay or error; every roundel is detected.
+    /// Without noise, delay or error; every tag is detected.
     pub fn perfect() -> Self {
         Self {
             focal_error: 0.0,

@@ -29,7 +29,7 @@ pub struct DroneConfig {
     pub profile: Profile,
     /// Noise and delays of its sensors.
     pub sensors: SensorModel,
-    /// Its bottom camera, which detects roundels if the configuration enables it.
+    /// Its bottom camera, which detects tags if the configuration enables it.
     pub camera: CameraModel,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -159,7 +159,7 @@ pub struct Drone {
     airframe: Airframe,
     sensors: Sensors,
     camera: Camera,
-    /// Roundels on the floor, relative to the start.
+    /// Tags on the floor, relative to the start.
     tags: Vec<FloorTag>,
     steps: u64,
     sequence: u32,
@@ -331,7 +331,7 @@ impl Drone {
         self.faults.begin(now, quantity, fault, time, &reported);
     }
 
-    /// Places a roundel on the floor.
+    /// Places a tag on the floor.
     pub fn lay_tag(&mut self, tag: FloorTag) {
         self.tags.push(tag);
     }
@@ -360,12 +360,12 @@ impl Drone {
         self.config.lies
     }
 
-    /// The roundels on the floor, in the order of their placement.
+    /// The tags on the floor, in the order of their placement.
     pub fn tags(&self) -> &[FloorTag] {
         &self.tags
     }
 
-    /// Moves or removes a roundel; the first one placed is 0.
+    /// Moves or removes a tag; the first one placed is 0.
     pub fn move_tag(&mut self, tag: usize, to: Option<FloorTag>) {
         match (self.tags.get_mut(tag), to) {
             (Some(tag), Some(to)) => *tag = to,

@@ -532,7 +532,7 @@ impl Firmware {
         self.configuration.video_kbit_s()
     }
 
-    /// The roundel detector, if the configuration enables it.
+    /// The tag detector, if the configuration enables it.
     pub(crate) fn detector(&self) -> Option<Detector> {
         /// The black and white oriented roundel, as a kind and as a selection bit.
         const ROUNDEL: u32 = 8;

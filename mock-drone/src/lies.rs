@@ -65,8 +65,8 @@ bitflags! {
         const OTHER_SIZE = 1 << 27;
         /// On the ground the control state is hovering.
         const CLAIMS_TO_HOVER = 1 << 28;
-        /// It was left with the flying mode that hovers on roundels.
-        const FOLLOWS_ROUNDELS = 1 << 29;
+        /// It was left with the flying mode that hovers on tags.
+        const FOLLOWS_TAGS = 1 << 29;
     }
 }
 
@@ -128,7 +128,7 @@ impl Lies {
         if self.contains(Self::MISSING_KEY) {
             text = text.replace("control:control_vz_max", "control:control_vz_limit");
         }
-        if self.contains(Self::FOLLOWS_ROUNDELS) {
+        if self.contains(Self::FOLLOWS_TAGS) {
             text = text.replace("control:flying_mode = 0", "control:flying_mode = 1");
         }
         if self.contains(Self::OTHER_VERSION) {

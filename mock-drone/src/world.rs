@@ -24,7 +24,7 @@ pub struct WorldConfig {
     pub link: LinkFaults,
     /// Faults over time.
     pub scenario: Scenario,
-    /// Roundels on the floor.
+    /// Tags on the floor.
     pub tags: Vec<FloorTag>,
     /// Where the drone stands in the air that it may share with others. Its own frame begins there.
     pub start: Standing,

@@ -134,7 +134,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
             at: Duration::ZERO,
             place_m: truth.position_m.xy(),
             velocity_m_s: truth.velocity_m_s.xy(),
-            deviation_m: 0.1,
+            uncertainty_m: 0.1,
             separation_m: 0.0,
             presence,
             claim: None,

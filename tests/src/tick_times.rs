@@ -118,7 +118,7 @@ fn fly(
                 at: now,
                 place_m,
                 velocity_m_s: Vector2::zeros(),
-                deviation_m: 0.1,
+                uncertainty_m: 0.1,
                 separation_m: 1.5,
                 presence: Presence::Flies,
                 claim: None,

@@ -134,7 +134,7 @@ fn hovering(number: u8, at: Duration) -> Neighbour {
         at,
         place_m,
         velocity_m_s,
-        deviation_m: 0.1,
+        uncertainty_m: 0.1,
         separation_m: 1.5,
         presence: Presence::Flies,
         claim,

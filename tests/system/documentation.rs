@@ -128,6 +128,72 @@ fn each_page_is_in_the_book_and_the_first_one_is_short() {
     assert!(pages["README.md"].lines().count() <= 120, "README.md has more than 120 lines");
 }
 
+/// The pictures of a folder of `docs`, and of those in it.
+fn pictures_in(folder: &str) -> BTreeSet<String> {
+    let files = std::fs::read_dir(repository().join(folder)).unwrap().map(Result::unwrap);
+    let pictures = files.flat_map(|file| {
+        let name = format!("{folder}/{}", file.file_name().display());
+        if file.path().is_dir() { pictures_in(&name) } else { BTreeSet::from([name]) }
+    });
+    pictures.filter(|name| is_picture(name)).collect()
+}
+
+fn is_picture(name: &str) -> bool {
+    [".png", ".svg"].iter().any(|ending| name.ends_with(ending))
+}
+
+/// What is drawn by tests whose names begin with `the_picture`: it is named in them.
+fn drawn() -> BTreeSet<String> {
+    let tests = std::fs::read_dir(repository().join("tests/system")).unwrap();
+    let mut drawn = BTreeSet::new();
+    for file in tests.map(|file| file.unwrap().path()).filter(|file| file.is_file()) {
+        let source = std::fs::read_to_string(file).unwrap();
+        let tests = source.split("\nfn ").filter(|test| test.starts_with("the_picture"));
+        let bodies = tests.filter_map(|test| test.split("\n}\n").next());
+        let named =
+            bodies.flat_map(|body| body.split('"')).filter_map(|word| word.strip_prefix("../"));
+        drawn.extend(named.filter(|name| is_picture(name)).map(str::to_owned));
+    }
+    drawn
+}
+
+/// What the glossary names as a field has this name in JSON and in the log.
+#[test]
+fn fields_have_the_names_of_the_glossary() {
+    let pages = pages();
+    let words = pages["docs/glossary.md"].lines().flat_map(pieces);
+    let fields = words.filter(|(is_code, word)| *is_code && word.ends_with("_m"));
+    let fields: Vec<&str> = fields.map(|(_, word)| word).collect();
+    assert_eq!(fields, ["uncertainty_m", "height_uncertainty_m"]);
+    for source in ["json.rs", "recording/schemas/tick.json"] {
+        let text = std::fs::read_to_string(repository().join("ardrone-pilot/src").join(source));
+        let missing =
+            fields.iter().find(|field| !text.as_ref().unwrap().contains(&format!("\"{field}\"")));
+        assert_eq!(missing, None, "{source}");
+    }
+}
+
+#[test]
+fn each_picture_is_shown_and_can_be_drawn_again() {
+    let mut shown = BTreeSet::new();
+    for (name, page) in pages() {
+        let folder =
+            name.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default();
+        let of_page =
+            lines(&page).filter(|line| line.code.is_none()).flat_map(|line| targets(line.text));
+        shown.extend(
+            of_page.filter(|target| is_picture(target)).map(|target| folder.clone() + &target),
+        );
+    }
+    let there = pictures_in("docs");
+    assert_eq!(shown, there, "what pages show, and what is there");
+    assert_eq!(
+        drawn(),
+        there,
+        "what tests draw whose names begin with the_picture, and what is there"
+    );
+}
+
 /// A command line as words, without what a shell does around it.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut quote) = (vec![String::new()], None);

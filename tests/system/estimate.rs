@@ -127,12 +127,12 @@ fn the_uncertainty_is_honest() {
                 }
                 let (pose, truth) =
                     (moment.status.pose.unwrap_or_default(), &moment.truth.position_m);
-                let deviation_m = moment.status.horizontal_deviation_m;
+                let uncertainty_m = moment.status.uncertainty_m;
                 for off_m in [truth.x - pose.x_m, truth.y - pose.y_m] {
                     all += 1.0;
-                    inside += f64::from(u8::from(off_m.abs() <= 2.0 * deviation_m));
+                    inside += f64::from(u8::from(off_m.abs() <= 2.0 * uncertainty_m));
                 }
-                largest_m = largest_m.max(deviation_m);
+                largest_m = largest_m.max(uncertainty_m);
             };
             simulation.fly_watched(plan(VERTICAL), watch).unwrap();
         }

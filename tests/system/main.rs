@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
 
 mod allocation;
+mod animation;
 mod architecture;
 mod browser;
 mod chromium;
@@ -27,6 +28,7 @@ mod mavlink;
 mod mission_agents;
 mod operator;
 mod parting;
+mod pictures;
 mod planner;
 mod plans;
 mod polygon;

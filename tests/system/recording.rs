@@ -191,7 +191,7 @@ fn foreign_log(
         .emit_message_indexes(false);
     let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
     let metadata = [
-        ("format", "5"),
+        ("format", "6"),
         ("start_ns", "0"),
         ("plan", "p"),
         ("drone", "d"),
@@ -484,9 +484,9 @@ fn a_log_of_another_format_is_refused_with_the_version_that_wrote_it() {
         drop(writer);
         Log::read(&file.into_inner()).unwrap_err().to_string()
     };
-    for unknown in ["6", "4", "0", "-1", "two"] {
+    for unknown in ["7", "5", "0", "-1", "two"] {
         let text = refused(unknown);
         assert!(text.contains(&format!("format is {unknown}")) && text.contains("9.8.7"), "{text}");
     }
-    assert!(refused("5").contains("has no"), "known, and the rest is missing");
+    assert!(refused("6").contains("has no"), "known, and the rest is missing");
 }

@@ -180,7 +180,7 @@ const FOUND_BY: [(&str, &[&str]); 28] = [
     ("tilted", &["attitude"]),
     ("moves-at-rest", &["at-rest"]),
     ("claims-to-hover", &["at-rest"]),
-    ("follows-roundels", &["unset-keys"]),
+    ("follows-tags", &["unset-keys"]),
 ];
 /// Those of the video, which is not simulated in simulated time.
 const OF_THE_VIDEO: [&str; 2] = ["other-codec", "other-size"];

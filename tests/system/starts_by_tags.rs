@@ -18,7 +18,7 @@ const ASIDE_M: f64 = 0.3;
 const TURNED_DEG: f64 = 15.0;
 
 /// Two that change places, with the standard deviation that is told of the heading at their starts.
-fn two_that_change_places(heading_deviation_deg: f64, seed: u64) -> Fleet {
+fn two_that_change_places(heading_uncertainty_deg: f64, seed: u64) -> Fleet {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut within = |most: f64| random.random_range(-most..most);
     let surveyed =
@@ -28,7 +28,8 @@ fn two_that_change_places(heading_deviation_deg: f64, seed: u64) -> Fleet {
     let mut fleet = crossing(2, 3.5, seed);
     for (member, [here, there]) in fleet.members.iter_mut().zip([[0, 1], [1, 0]]) {
         let place_m = Vector2::from(TAGS_M[here]);
-        member.start = Start { place_m, heading_deg: 0.0, deviation_m: 0.3, heading_deviation_deg };
+        member.start =
+            Start { place_m, heading_deg: 0.0, uncertainty_m: 0.3, heading_uncertainty_deg };
         let stands = Start {
             place_m: place_m + Vector2::new(within(ASIDE_M), within(ASIDE_M)),
             heading_deg: within(TURNED_DEG),
@@ -50,9 +51,9 @@ fn two_that_change_places(heading_deviation_deg: f64, seed: u64) -> Fleet {
 }
 
 /// How many of so many end astray, more than 0.3 m from the other one's tag.
-fn astray(heading_deviation_deg: f64, seeds: u64) -> usize {
+fn astray(heading_uncertainty_deg: f64, seeds: u64) -> usize {
     let astray = (0..seeds).map(|seed| {
-        let flight = two_that_change_places(heading_deviation_deg, seed).fly(LIMIT).unwrap();
+        let flight = two_that_change_places(heading_uncertainty_deg, seed).fly(LIMIT).unwrap();
         assert!(flight.keeps_apart() && flight.is_complete(), "{seed}: {flight:?}");
         let ends = flight.places_m.iter().zip(TAGS_M.into_iter().rev());
         ends.filter(|(end_m, tag_m)| (end_m.xy() - Vector2::from(*tag_m)).norm() > 0.3).count()

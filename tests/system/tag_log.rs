@@ -48,9 +48,9 @@ fn tags_are_logged_once_a_second_and_when_one_is_found_and_replay_the_same() {
     assert_eq!(found, 1, "{moments:?}");
     let last = moments.last().unwrap().1[1];
     assert!(last.id == 2 && !last.surveyed && last.seen_s.is_some(), "{last:?}");
-    assert!((last.x_m - 0.05).hypot(last.y_m + 0.05) < 2.0 * last.deviation_m, "{last:?}");
+    assert!((last.x_m - 0.05).hypot(last.y_m + 0.05) < 2.0 * last.uncertainty_m, "{last:?}");
     let page = report::html(&log, &[]).unwrap();
-    assert!(page.contains("id=\"tagtext\"") && page.contains("\"deviation_m\""));
+    assert!(page.contains("id=\"tagtext\"") && page.contains("\"uncertainty_m\""));
     log.settings = log
         .settings
         .replace("detect = false", "detect = true")

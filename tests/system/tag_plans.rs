@@ -118,7 +118,7 @@ fn a_doubtful_place_is_a_reason_to_look_for_the_tag() {
         .fly_watched(plan(text), |moment: &Moment| {
             let pose = moment.status.pose.unwrap_or_default();
             let truth = moment.truth.position_m.xy();
-            most_m = most_m.max(moment.status.horizontal_deviation_m);
+            most_m = most_m.max(moment.status.uncertainty_m);
             off_m = off_m.max((truth - Vector2::new(pose.x_m, pose.y_m)).norm());
         })
         .unwrap();

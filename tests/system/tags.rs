@@ -1,4 +1,4 @@
-//! Roundels on the floor: the drone finds them, and its place no longer drifts.
+//! Tags on the floor: the drone finds them, and its place no longer drifts.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -67,7 +67,7 @@ fn hover(seed: u64, hard: bool, scenario: &str) -> (Kept, SimulatedFlight) {
         kept.estimate_worst_m = kept.estimate_worst_m.max(off.norm());
         kept.jolt_m_s = kept.jolt_m_s.max(jolt_m_s);
         kept.moments += 1.0;
-        let most_m = 2.0 * moment.status.horizontal_deviation_m;
+        let most_m = 2.0 * moment.status.uncertainty_m;
         kept.inside += f64::from(u8::from(off.x.abs() <= most_m && off.y.abs() <= most_m));
         let turned_deg = moment.truth.yaw_deg - pose.yaw_deg;
         kept.heading_deg = wrap_deg(turned_deg).abs();

@@ -132,7 +132,7 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
-    /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
+    /// Hover and fly over tags on the floor, and tell how well the pilot knows where it is; fails if that is not
     /// as good as it must be
     Tags {
         /// Seeds of each case, nominal and hard, from 1

@@ -16,7 +16,7 @@ const FONT: &str = "sans-serif";
 /// The flight to draw: the airframe that differs most from the assumed one, with the plan that moves it most.
 const DRAWN: Job = Job { case: 1, plan: 2, seed: 1 };
 /// Seconds of it to draw.
-const DRAWN_S: f64 = 55.0;
+const DRAWN_S: f64 = 45.0;
 /// Ticks per point.
 const DRAWN_TICKS: usize = 4;
 
@@ -68,8 +68,8 @@ fn figures(area: &Drawing<'_>, rows: &[Row]) -> Drawn {
     let rows: Vec<&Row> = rows.iter().filter(|row| CASES[row.case].bound_s.is_some()).collect();
     let (left, right) = area.split_horizontally(450);
     let over_bound = |row: &Row| row.transit_s / CASES[row.case].bound_s.unwrap_or(1.0);
-    bars(&left, &rows, "Time between the stays / best possible", 5.0, over_bound)?;
-    bars(&right, &rows, "Worst overshoot (m)", 0.9, |row| row.overshoot_worst_m)
+    bars(&left, &rows, "Time between the stays / best possible", 2.0, over_bound)?;
+    bars(&right, &rows, "Worst overshoot (m)", 0.4, |row| row.overshoot_worst_m)
 }
 
 fn bars(
@@ -105,7 +105,7 @@ fn bars(
         let case = &CASES[row.case];
         for (line, word) in [case.airframe, case.conditions].into_iter().enumerate() {
             chart.draw_series([EmptyElement::at((from, 0.0))
-                + Text::new(word, (0, 8 + 15 * i32::try_from(line)?), (FONT, 13))])?;
+                + Text::new(word, (0, 8 + 15 * i32::try_from(line)?), (FONT, 11))])?;
         }
     }
     Ok(())

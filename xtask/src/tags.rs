@@ -1,4 +1,4 @@
-//! Flies over roundels on the floor, and tells how well the pilot then knows where it is.
+//! Flies over tags on the floor, and tells how well the pilot then knows where it is.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -440,7 +440,7 @@ fn fly(job: Job) -> Result<Flown, TagError> {
         flown.truth_worst_m = flown.truth_worst_m.max(astray_m);
         flown.estimate_squares += off.norm_squared();
         flown.estimate_worst_m = flown.estimate_worst_m.max(off.norm());
-        let most_m = 2.0 * moment.status.horizontal_deviation_m;
+        let most_m = 2.0 * moment.status.uncertainty_m;
         flown.inside +=
             off.iter().map(|off| f64::from(u8::from(off.abs() <= most_m)) / 2.0).sum::<f64>();
         let turned = moment.truth.yaw_deg - pose.yaw_deg;

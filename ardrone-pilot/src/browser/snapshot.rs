@@ -149,7 +149,7 @@ impl Snapshot {
                 "emergency": seen("emergency"),
                 "airborne": seen("airborne"),
                 "pose": seen("pose"),
-                "horizontal_deviation_m": seen("horizontal_deviation_m"),
+                "uncertainty_m": seen("uncertainty_m"),
                 "battery_percent": seen("battery_percent"),
                 "step": seen("step"),
                 "steps": seen("steps"),

@@ -113,7 +113,7 @@ impl Elsewhere {
             let told = self.places.read(place).map(|placed| Told {
                 presence: placed.neighbour.presence,
                 place_m: placed.neighbour.place_m,
-                deviation_m: placed.neighbour.deviation_m,
+                uncertainty_m: placed.neighbour.uncertainty_m,
                 age: if placed.is_parked { Duration::ZERO } else { placed.at.elapsed() },
             });
             Seen { vehicle: self.roster.vehicles[place].name, told }

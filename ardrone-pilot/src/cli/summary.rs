@@ -55,8 +55,8 @@ impl fmt::Display for Summary<'_> {
             writeln!(f, "  final error     {error_m:.2} m (estimate to last target)")?;
         }
         if let Some(waypoint) = report.waypoints.last() {
-            let (deviation_m, rests_on) = (waypoint.horizontal_deviation_m, waypoint.rests_on);
-            writeln!(f, "  uncertainty     {deviation_m:.2} m (standard deviation), {rests_on}")?;
+            let (uncertainty_m, rests_on) = (waypoint.uncertainty_m, waypoint.rests_on);
+            writeln!(f, "  uncertainty     {uncertainty_m:.2} m (standard deviation), {rests_on}")?;
         }
         let largest = |value: fn(&TrueWaypoint) -> f64| {
             self.truths.iter().map(value).fold(None, |largest: Option<f64>, value| {
@@ -78,7 +78,7 @@ impl fmt::Display for Summary<'_> {
 impl Summary<'_> {
     /// Statistics of ticks, flight log and network.
     fn machine(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "  ticks           {}", self.finished.ticks)?;
+        writeln!(f, "  timing          {}", self.finished.ticks)?;
         if let Some(recorded) = self.recorded {
             let (path, kilobytes) = (recorded.path.display(), recorded.bytes.div_ceil(1000));
             writeln!(f, "  flight log      {path}, {kilobytes} kB")?;

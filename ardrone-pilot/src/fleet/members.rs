@@ -410,7 +410,7 @@ fn start_findings<'a>(
         let pair =
             format!("{name} and {} start {apart_m:.2} m from each other", other.name.get_ref());
         let separation_m = config.separation_m;
-        let unsure_m = unsure_m([start.deviation_m, there.deviation_m]);
+        let unsure_m = unsure_m([start.uncertainty_m, there.uncertainty_m]);
         if apart_m < separation_m + unsure_m {
             let (known, help) = if apart_m < separation_m {
                 (String::new(), "put them further apart, or give a smaller `separation_m`")

@@ -204,7 +204,7 @@ mod tests {
             at: ms * MS,
             place_m,
             velocity_m_s,
-            deviation_m: 0.1,
+            uncertainty_m: 0.1,
             separation_m: 1.5,
             presence,
             claim: None,

@@ -37,7 +37,7 @@ pub struct Told {
     /// Right and forward in the common frame.
     pub place_m: Vector2<f64>,
     /// Standard deviation of the place.
-    pub deviation_m: f64,
+    pub uncertainty_m: f64,
     /// How long ago it was there at most; zero if it stays there.
     pub age: Duration,
 }
@@ -68,7 +68,7 @@ impl Seen {
             "emergency": false,
             "airborne": self.told.map(|told| told.presence == Presence::Flies),
             "pose": self.told.map(pose),
-            "horizontal_deviation_m": self.told.map(|told| told.deviation_m),
+            "uncertainty_m": self.told.map(|told| told.uncertainty_m),
             "battery_percent": null,
             "step": null,
             "steps": null,
@@ -166,11 +166,11 @@ mod tests {
     fn who_is_flown_elsewhere_is_shown_with_how_it_is_heard() {
         let vehicle = "right".parse().unwrap();
         let seen = |ms: u64| {
-            let (place_m, deviation_m) = (Vector2::new(1.0, 2.0), 0.1);
+            let (place_m, uncertainty_m) = (Vector2::new(1.0, 2.0), 0.1);
             let age = Duration::from_millis(ms);
             Seen {
                 vehicle,
-                told: Some(Told { presence: Presence::Flies, place_m, deviation_m, age }),
+                told: Some(Told { presence: Presence::Flies, place_m, uncertainty_m, age }),
             }
         };
         assert_eq!(seen(1500).in_short(), ("elsewhere, flies".to_owned(), false));

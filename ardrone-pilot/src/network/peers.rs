@@ -193,7 +193,7 @@ impl Peers {
         // It may have been there later than we believe, by the width of the bound, and flown on so long less.
         let width_s = bound.width(now).unwrap_or(TOO_OLD).as_secs_f64();
         let mut neighbour = state.neighbour;
-        neighbour.deviation_m += neighbour.velocity_m_s.norm() * width_s / 2.0;
+        neighbour.uncertainty_m += neighbour.velocity_m_s.norm() * width_s / 2.0;
         Ok(Heard { place, age, neighbour, is_parked })
     }
 
@@ -307,7 +307,7 @@ mod tests {
             at,
             place_m: Vector2::new(1.0, 2.0),
             velocity_m_s: Vector2::new(velocity_m_s, 0.0),
-            deviation_m: 0.1,
+            uncertainty_m: 0.1,
             separation_m: 1.5,
             presence: Presence::Flies,
             claim: None,
@@ -375,7 +375,7 @@ mod tests {
         assert!((20 * MS..21 * MS).contains(&heard.age), "{heard:?}");
         assert_eq!((heard.place, heard.neighbour.system), (1, 2));
         // It flew at 1 m/s for at most those 20 ms more or less.
-        assert!((heard.neighbour.deviation_m - 0.11).abs() < 0.001, "{heard:?}");
+        assert!((heard.neighbour.uncertainty_m - 0.11).abs() < 0.001, "{heard:?}");
     }
 
     /// Arrival is not the time of a state.

@@ -154,7 +154,7 @@ pub(super) mod tests {
         Start {
             place_m: Vector2::new(x_m, 0.0),
             heading_deg,
-            deviation_m: 0.05,
+            uncertainty_m: 0.05,
             ..Start::default()
         }
     }

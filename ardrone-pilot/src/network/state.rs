@@ -88,7 +88,7 @@ struct Written {
     measured_us: u64,
     place_m: [f64; 2],
     velocity_m_s: [f64; 2],
-    deviation_m: f64,
+    uncertainty_m: f64,
     separation_m: f64,
     presence: WrittenPresence,
     claim: Option<WrittenClaim>,
@@ -137,7 +137,7 @@ impl From<Session> for String {
 impl State {
     /// The text; `None` if a number makes no sense, which nobody would believe.
     pub fn encode(&self) -> Option<String> {
-        let Neighbour { system, at, place_m, velocity_m_s, deviation_m, separation_m, .. } =
+        let Neighbour { system, at, place_m, velocity_m_s, uncertainty_m, separation_m, .. } =
             self.neighbour;
         let presence = match self.neighbour.presence {
             Presence::Stands => WrittenPresence::Stands,
@@ -165,7 +165,7 @@ impl State {
             place_m: rounded(place_m),
             velocity_m_s: rounded(velocity_m_s),
             // Never more certain than it is.
-            deviation_m: (deviation_m * 1000.0).ceil() / 1000.0,
+            uncertainty_m: (uncertainty_m * 1000.0).ceil() / 1000.0,
             separation_m: (separation_m * 1000.0).ceil() / 1000.0,
             presence,
             claim,
@@ -203,7 +203,7 @@ impl State {
             at: Duration::from_micros(written.measured_us),
             place_m: written.place_m.into(),
             velocity_m_s: written.velocity_m_s.into(),
-            deviation_m: written.deviation_m,
+            uncertainty_m: written.uncertainty_m,
             separation_m: written.separation_m,
             presence: match written.presence {
                 WrittenPresence::Stands => Presence::Stands,
@@ -243,7 +243,7 @@ impl Written {
         SYSTEMS.contains(&self.system)
             && is_within(&self.place_m, FURTHEST_M)
             && is_within(&self.velocity_m_s, FASTEST_M_S)
-            && is_amount(self.deviation_m, FURTHEST_M)
+            && is_amount(self.uncertainty_m, FURTHEST_M)
             && is_amount(self.separation_m, WIDEST_M)
             && self.claim.as_ref().is_none_or(is_claimed)
             && is_time(self.sent_us)
@@ -282,7 +282,7 @@ pub(super) mod tests {
                 at: Duration::from_millis(4980),
                 place_m: Vector2::new(-2.5, 0.25),
                 velocity_m_s: Vector2::new(0.5, -0.25),
-                deviation_m: 0.125,
+                uncertainty_m: 0.125,
                 separation_m: 1.5,
                 presence: Presence::Flies,
                 claim: Some(Claim {
@@ -314,7 +314,7 @@ pub(super) mod tests {
             "measured_us": 4_980_000,
             "place_m": [-2.5, 0.25],
             "velocity_m_s": [0.5, -0.25],
-            "deviation_m": 0.125,
+            "uncertainty_m": 0.125,
             "separation_m": 1.5,
             "presence": "flies",
             "claim": { "to_m": [2.5, 0.0], "first_system": 1, "behind": 0 },
@@ -337,8 +337,8 @@ pub(super) mod tests {
         for (key, value) in [
             ("place_m", json!([1e9, 0])),
             ("velocity_m_s", json!([0, 31])),
-            ("deviation_m", json!(-0.1)),
-            ("deviation_m", json!(1e300)),
+            ("uncertainty_m", json!(-0.1)),
+            ("uncertainty_m", json!(1e300)),
             ("separation_m", json!(21)),
             ("separation_m", json!(-1)),
             ("system", json!(0)),
@@ -358,7 +358,7 @@ pub(super) mod tests {
         for (key, value) in [
             ("place_m", json!([0])),
             ("place_m", json!(["0", 0])),
-            ("deviation_m", Value::Null),
+            ("uncertainty_m", Value::Null),
             ("presence", json!("hovers")),
             ("vehicle", json!("../left")),
             ("session", json!("+000000000000001")),
@@ -429,7 +429,7 @@ pub(super) mod tests {
                     at: latest,
                     place_m: Vector2::new(numbers[0], numbers[1]),
                     velocity_m_s: Vector2::new(speeds[0], speeds[1]),
-                    deviation_m: numbers[2].abs(),
+                    uncertainty_m: numbers[2].abs(),
                     separation_m: 19.9991,
                     presence: Presence::Stands,
                     claim: Some(Claim {
@@ -444,7 +444,7 @@ pub(super) mod tests {
             prop_assert!(text.len() <= STATE_BYTES, "{}", text.len());
             let read = State::decode(text.as_bytes()).unwrap();
             prop_assert!(read.encode().is_some());
-            prop_assert!(read.neighbour.deviation_m >= state.neighbour.deviation_m);
+            prop_assert!(read.neighbour.uncertainty_m >= state.neighbour.uncertainty_m);
         }
     }
 }

@@ -98,12 +98,12 @@ pub struct Estimate {
     /// Up.
     pub vz_m_s: f64,
     /// Standard deviation of the position on each horizontal axis.
-    pub horizontal_deviation_m: f64,
+    pub uncertainty_m: f64,
     /// Time since the tag was seen on which that rests; `None` if it rests on the drone's velocity alone.
     #[serde(default)]
     pub tag_seen_s: Option<f64>,
     /// Standard deviation of the height.
-    pub vertical_deviation_m: f64,
+    pub height_uncertainty_m: f64,
 }
 
 /// REF and PCMD as fractions of the limits, with the drone's signs.
@@ -234,7 +234,7 @@ pub struct Tag {
     /// Direction of its pattern, degrees clockwise, once it is known.
     pub heading_deg: Option<f64>,
     /// Standard deviation of its position on the worse axis.
-    pub deviation_m: f64,
+    pub uncertainty_m: f64,
     /// Whether its position was given, and not found in flight.
     pub surveyed: bool,
     /// Time since it was last seen; `None` if it has not been seen yet.
@@ -254,7 +254,7 @@ impl From<&KnownTag> for Tag {
             x_m: short(tag.place_m.x),
             y_m: short(tag.place_m.y),
             heading_deg: tag.heading_deg.map(short),
-            deviation_m: short(tag.deviation_m),
+            uncertainty_m: short(tag.uncertainty_m),
             surveyed: tag.surveyed,
             seen_s: tag.seen_ago.map(|ago| short(ago.as_secs_f64())),
         }
@@ -280,12 +280,12 @@ impl Tick {
             vx_m_s: short(state.velocity_m_s.x),
             vy_m_s: short(state.velocity_m_s.y),
             vz_m_s: short(state.velocity_m_s.z),
-            horizontal_deviation_m: short(percepts.position_sd_m),
+            uncertainty_m: short(percepts.uncertainty_m),
             tag_seen_s: decision
                 .tags
                 .and_then(|tags| tags.seen_ago)
                 .map(|ago| short(ago.as_secs_f64())),
-            vertical_deviation_m: short(decision.vertical_deviation_m),
+            height_uncertainty_m: short(decision.height_uncertainty_m),
         };
         Self {
             phase: decision.phase.name().to_owned(),

@@ -46,7 +46,7 @@ const SETTINGS_FILE: &str = "pilot.toml";
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
 /// Version of the message format.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 /// Name of the metadata record.
 const FLIGHT: &str = "flight";
 
@@ -126,7 +126,7 @@ pub enum Record {
         /// What.
         line: Line,
     },
-    /// Another message for people.
+    /// Another event, as text.
     Note {
         /// Its time.
         at: Duration,

@@ -16,7 +16,7 @@ pub struct Neighbour {
     y_m: Option<f64>,
     x_m_s: Option<f64>,
     y_m_s: Option<f64>,
-    deviation_m: Option<f64>,
+    uncertainty_m: Option<f64>,
     separation_m: Option<f64>,
     presence: Presence,
     claim: Option<Claim>,
@@ -70,7 +70,7 @@ impl From<&separation::Neighbour> for Neighbour {
             y_m: finite(heard.place_m.y),
             x_m_s: finite(heard.velocity_m_s.x),
             y_m_s: finite(heard.velocity_m_s.y),
-            deviation_m: finite(heard.deviation_m),
+            uncertainty_m: finite(heard.uncertainty_m),
             separation_m: finite(heard.separation_m),
             presence: heard.presence.into(),
             claim: heard.claim.map(|separation::Claim { to_m, rank }| Claim {
@@ -92,7 +92,7 @@ impl Neighbour {
             at: Duration::from_nanos(self.at_ns),
             place_m: Vector2::new(number(self.x_m), number(self.y_m)),
             velocity_m_s: Vector2::new(number(self.x_m_s), number(self.y_m_s)),
-            deviation_m: number(self.deviation_m),
+            uncertainty_m: number(self.uncertainty_m),
             separation_m: number(self.separation_m),
             presence: self.presence.into(),
             claim: self.claim.map(|Claim { x_m, y_m, system, behind }| separation::Claim {
@@ -114,7 +114,7 @@ mod tests {
             at: Duration::from_nanos(1_234_567_890_123_456_789),
             place_m: Vector2::new(0.1, -2.0 / 3.0),
             velocity_m_s: Vector2::new(1e-3, 4.0),
-            deviation_m: 0.25,
+            uncertainty_m: 0.25,
             separation_m: 1.25,
             presence,
             claim: Some(separation::Claim {
@@ -131,8 +131,8 @@ mod tests {
         }
         let heard = heard(separation::Presence::Flies);
         assert_eq!(again(&heard), heard);
-        let nonsense = separation::Neighbour { deviation_m: f64::INFINITY, ..heard };
-        assert!(again(&nonsense).deviation_m.is_nan());
+        let nonsense = separation::Neighbour { uncertainty_m: f64::INFINITY, ..heard };
+        assert!(again(&nonsense).uncertainty_m.is_nan());
     }
 
     #[test]
@@ -146,7 +146,7 @@ mod tests {
             y_m: None,
             x_m_s: None,
             y_m_s: None,
-            deviation_m: None,
+            uncertainty_m: None,
             separation_m: None,
             presence: Presence::Stands,
             claim: None,

@@ -224,7 +224,7 @@ impl Log {
         })
     }
 
-    /// All messages for people: time, whether it is a warning, and text.
+    /// All events, and the outcome: time, whether it is a warning, and text.
     pub fn events(&self) -> impl Iterator<Item = (Duration, bool, &str)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Event { warns, text } => Some((*at, *warns, text.as_str())),

@@ -161,7 +161,7 @@ impl Recorder {
         }
     }
 
-    /// Another message for people.
+    /// Another event, as text.
     pub fn note(&mut self, at: Duration, text: String) {
         self.record(Record::Note { at, text });
     }

@@ -73,7 +73,7 @@ pub(super) fn findings(flight: &Flight<'_>) -> Vec<Finding> {
     found.peak(&air, late, LATE_MS, |most, until_s| {
         format!("a tick was late: up to {most:.0} ms, at {until_s:.2} s")
     });
-    let doubt = |row: &Row<'_>| row.tick.estimate.map_or(0.0, |at| at.horizontal_deviation_m);
+    let doubt = |row: &Row<'_>| row.tick.estimate.map_or(0.0, |at| at.uncertainty_m);
     found.peak(&air, doubt, DOUBTFUL_M, |most, until_s| {
         format!("the uncertainty of the place was above {DOUBTFUL_M} m: up to {most:.2} m, at {until_s:.2} s")
     });

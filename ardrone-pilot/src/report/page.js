@@ -405,16 +405,16 @@ function drawTags() {
     const seen = tag.seen_s !== null && tag.seen_s < STALE;
     const group = svg("g", { class: seen ? "tag" : "tag stale" }, map);
     const [cx, cy] = scale.place(tag.x_m, tag.y_m);
-    svg("circle", { class: "spread", cx, cy, r: tag.deviation_m / scale.metres }, group);
+    svg("circle", { class: "spread", cx, cy, r: tag.uncertainty_m / scale.metres }, group);
     if (tag.heading_deg !== null) svg("path", { class: "direction", d: "M0-7V-17", transform: `translate(${cx} ${cy}) rotate(${tag.heading_deg})` }, group);
     svg("circle", { class: "rim", cx, cy, r: 7 }, group);
     svg("circle", { cx, cy, r: 2.5 }, group);
     svg("text", { x: cx, y: cy + 26, "text-anchor": "middle" }, group, `${tag.id}${tag.surveyed ? "*" : ""}`);
   }
-  const list = (then ? then.tags : []).map(({ id, x_m, y_m, heading_deg, deviation_m, surveyed, seen_s }) => {
+  const list = (then ? then.tags : []).map(({ id, x_m, y_m, heading_deg, uncertainty_m, surveyed, seen_s }) => {
     const turned = heading_deg === null ? "" : `, ${heading_deg.toFixed(0)}°`;
     const seen = seen_s === null ? "not seen" : `seen ${seen_s.toFixed(1)} s before`;
-    return `${id}${surveyed ? "*" : ""} at ${x_m.toFixed(2)} ${y_m.toFixed(2)} m, uncertainty ${deviation_m.toFixed(2)} m${turned}, ${seen}`;
+    return `${id}${surveyed ? "*" : ""} at ${x_m.toFixed(2)} ${y_m.toFixed(2)} m, uncertainty ${uncertainty_m.toFixed(2)} m${turned}, ${seen}`;
   });
   text.textContent = `Tags known at ${marked.toFixed(1)} s (* surveyed; circle: one standard deviation): ${list.join("; ") || "none"}.`;
 }

@@ -212,7 +212,7 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>, about: &About<'_>) {
     fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
     if let Some(last) = estimates().next_back() {
         let uncertainty = format!("uncertainty at the end, {}", last.rests_on());
-        fact(&escaped(&uncertainty), format!("{:.2} m", last.horizontal_deviation_m));
+        fact(&escaped(&uncertainty), format!("{:.2} m", last.uncertainty_m));
     }
     let height = estimates().map(|at| at.z_m);
     fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));

@@ -114,7 +114,7 @@ static PLOTS: [Plot; 12] = [
             line("up and down", GREEN, |row, _| {
                 Some((row.tick.target?.z_m - row.tick.estimate?.z_m).abs())
             }),
-            dashed("uncertainty", GREY, |row, _| Some(row.tick.estimate?.horizontal_deviation_m)),
+            dashed("uncertainty", GREY, |row, _| Some(row.tick.estimate?.uncertainty_m)),
         ],
     ),
     plot(

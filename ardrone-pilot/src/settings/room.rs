@@ -72,7 +72,7 @@ impl TryFrom<Vec<f64>> for SurveyedStart {
     type Error = String;
 
     fn try_from(written: Vec<f64>) -> Result<Self, String> {
-        let [x_m, y_m, heading_deg, deviation_m, heading_deviation_deg] = match *written {
+        let [x_m, y_m, heading_deg, uncertainty_m, heading_uncertainty_deg] = match *written {
             [] => return Ok(Self(None)),
             [x, y, heading] => [x, y, heading, USUAL_DEVIATION_M, 0.0],
             [x, y, heading, deviation] => [x, y, heading, deviation, 0.0],
@@ -89,8 +89,12 @@ impl TryFrom<Vec<f64>> for SurveyedStart {
             ("its place to the right", x_m, PLACE_M),
             ("its place forward", y_m, PLACE_M),
             ("its heading", heading_deg, HEADING_DEG),
-            ("the standard deviation of its place", deviation_m, DEVIATION_M),
-            ("the standard deviation of its heading", heading_deviation_deg, HEADING_DEVIATION_DEG),
+            ("the standard deviation of its place", uncertainty_m, DEVIATION_M),
+            (
+                "the standard deviation of its heading",
+                heading_uncertainty_deg,
+                HEADING_DEVIATION_DEG,
+            ),
         ];
         let wrong =
             |(name, value, [from, to]): (_, _, [f64; 2])| outside(name, value, &(from..=to));
@@ -98,15 +102,15 @@ impl TryFrom<Vec<f64>> for SurveyedStart {
             return Err(format!("of a start {reason}"));
         }
         let place_m = Vector2::new(x_m, y_m);
-        Ok(Self(Some(Start { place_m, heading_deg, deviation_m, heading_deviation_deg })))
+        Ok(Self(Some(Start { place_m, heading_deg, uncertainty_m, heading_uncertainty_deg })))
     }
 }
 
 impl From<SurveyedStart> for Vec<f64> {
     fn from(SurveyedStart(start): SurveyedStart) -> Self {
         let numbers = |start: Start| {
-            let Start { place_m, heading_deg, deviation_m, heading_deviation_deg } = start;
-            vec![place_m.x, place_m.y, heading_deg, deviation_m, heading_deviation_deg]
+            let Start { place_m, heading_deg, uncertainty_m, heading_uncertainty_deg } = start;
+            vec![place_m.x, place_m.y, heading_deg, uncertainty_m, heading_uncertainty_deg]
         };
         start.map(numbers).unwrap_or_default()
     }
@@ -139,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_start_has_three_to_five_numbers_and_is_read_back() {
-        for (start, deviation_m, heading_deviation_deg) in [
+        for (start, uncertainty_m, heading_uncertainty_deg) in [
             ("1, -2, 90", 0.05, 0.0),
             ("1, -2, 90, 0.2", 0.2, 0.0),
             ("1, -2, 90, 0.2, 10", 0.2, 10.0),
@@ -148,7 +152,8 @@ mod tests {
             let settings = Settings::parse("p", &text).unwrap();
             let config = settings.pilot_config(ZOrigin::Hover);
             let place_m = Vector2::new(1.0, -2.0);
-            let expected = Start { place_m, heading_deg: 90.0, deviation_m, heading_deviation_deg };
+            let expected =
+                Start { place_m, heading_deg: 90.0, uncertainty_m, heading_uncertainty_deg };
             assert_eq!(config.estimator.start, Some(expected));
             assert_eq!((config.separation_m, config.peers), (2.0, vec![2, 3]));
             assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);

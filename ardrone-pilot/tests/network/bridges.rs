@@ -24,7 +24,7 @@ pub(crate) fn roster(here: &str) -> Roster {
         let start = Start {
             place_m: Vector2::new(x_m, 0.0),
             heading_deg: 0.0,
-            deviation_m: 0.05,
+            uncertainty_m: 0.05,
             ..Start::default()
         };
         (name.parse().unwrap(), system, start)
@@ -38,7 +38,7 @@ pub(crate) fn stands(system: u8) -> Neighbour {
         at: Duration::ZERO,
         place_m: Vector2::new(f64::from(system), 0.5),
         velocity_m_s: Vector2::zeros(),
-        deviation_m: 0.1,
+        uncertainty_m: 0.1,
         separation_m: 1.5,
         presence: Presence::Stands,
         claim: None,

@@ -146,7 +146,7 @@ fn a_liar_does_not_drown_who_tells_the_truth() {
                 "measured_us": now_us,
                 "place_m": [2.5, 3.0],
                 "velocity_m_s": [0, 0],
-                "deviation_m": 0.05,
+                "uncertainty_m": 0.05,
                 "separation_m": 1.5,
                 "presence": "stands",
                 "claim": null,

@@ -15,7 +15,7 @@ const GROUND: Percepts = Percepts {
     hovering: false,
     battery_percent: Some(80),
     blind_for_ms: 0,
-    position_sd_m: 0.1,
+    uncertainty_m: 0.1,
     saturated_for_ms: 0,
     wind: 0.0,
     steering: false,
@@ -113,8 +113,8 @@ fn implausible_navdata_forbid_the_take_off() {
         Percepts { blind_for_ms: 301, ..GROUND },
         Percepts { blind_for_ms: i64::MAX, ..GROUND },
         Percepts { pose: None, ..GROUND },
-        Percepts { position_sd_m: 3.1, ..GROUND },
-        Percepts { position_sd_m: f64::NAN, ..GROUND },
+        Percepts { uncertainty_m: 3.1, ..GROUND },
+        Percepts { uncertainty_m: f64::NAN, ..GROUND },
     ] {
         let mut bench = Bench::new(percepts);
         assert!(bench.agent.achieve_take_off());
@@ -182,7 +182,7 @@ fn taking_over_in_the_air_looks_at_the_dangers() {
 fn setting_out_looks_at_the_dangers() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
-    bench.percepts.position_sd_m = 3.1;
+    bench.percepts.uncertainty_m = 3.1;
     let step = bench.run();
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::Lost)));
     assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
@@ -356,7 +356,7 @@ fn each_danger_lands_whatever_runs_and_is_reported() {
             bench.percepts = match danger {
                 Danger::BatteryEmpty => Percepts { battery_percent: Some(12), ..percepts },
                 Danger::Blind => Percepts { blind_for_ms: 2001, ..percepts },
-                Danger::Lost => Percepts { position_sd_m: 3.1, ..percepts },
+                Danger::Lost => Percepts { uncertainty_m: 3.1, ..percepts },
                 _ => Percepts { saturated_for_ms: 2001, wind: 0.5, ..percepts },
             };
             let step = bench.run();

@@ -170,7 +170,7 @@ mod tests {
                     at: FINE.now,
                     place_m: Vector2::new(x_m + off_m, *y_m),
                     velocity_m_s: Vector2::zeros(),
-                    deviation_m: 0.0,
+                    uncertainty_m: 0.0,
                     separation_m: 1.5,
                     presence: Presence::Flies,
                     claim: None,
@@ -182,7 +182,7 @@ mod tests {
             rank: None,
             place_m: across(&FINE.pose),
             velocity_m_s: Vector2::zeros(),
-            deviation_m: 0.0,
+            uncertainty_m: 0.0,
             separation_m: 1.5,
         };
         let others = neighbours.others(FINE.now, &oneself);

@@ -207,7 +207,7 @@ mod tests {
             at: FINE.now,
             place_m: here_m + Vector2::new(away_m, 0.0),
             velocity_m_s: Vector2::zeros(),
-            deviation_m: 0.0,
+            uncertainty_m: 0.0,
             separation_m: 1.5,
             presence: Presence::Flies,
             claim: None,
@@ -219,7 +219,7 @@ mod tests {
             rank: None,
             place_m: here_m,
             velocity_m_s,
-            deviation_m: 0.0,
+            uncertainty_m: 0.0,
             separation_m: 1.5,
         };
         let now = Situation { soon, ..FINE };

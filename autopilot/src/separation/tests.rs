@@ -8,7 +8,7 @@ const ONESELF: Oneself = Oneself {
     rank: None,
     place_m: Vector2::new(0.0, 0.0),
     velocity_m_s: Vector2::new(0.0, 0.0),
-    deviation_m: 0.0,
+    uncertainty_m: 0.0,
     separation_m: 1.5,
 };
 
@@ -18,7 +18,7 @@ fn neighbour(x_m: f64, y_m: f64) -> Neighbour {
         at: AT,
         place_m: Vector2::new(x_m, y_m),
         velocity_m_s: Vector2::zeros(),
-        deviation_m: 0.0,
+        uncertainty_m: 0.0,
         separation_m: 1.5,
         presence: Presence::Flies,
         claim: None,
@@ -49,12 +49,12 @@ fn two_at_rest_share_what_is_left_between_them() {
 fn both_draw_the_same_line() {
     let (velocity_m_s, other_m_s) = (Vector2::new(0.8, 0.3), Vector2::new(-0.2, 0.6));
     let (oneself, there) = (
-        Oneself { velocity_m_s, deviation_m: 0.3, ..ONESELF },
-        Neighbour { velocity_m_s: other_m_s, deviation_m: 0.4, ..neighbour(6.0, 0.0) },
+        Oneself { velocity_m_s, uncertainty_m: 0.3, ..ONESELF },
+        Neighbour { velocity_m_s: other_m_s, uncertainty_m: 0.4, ..neighbour(6.0, 0.0) },
     );
     let seen_from_there = (
-        Oneself { place_m: there.place_m, velocity_m_s: other_m_s, deviation_m: 0.4, ..ONESELF },
-        Neighbour { velocity_m_s, deviation_m: 0.3, ..neighbour(0.0, 0.0) },
+        Oneself { place_m: there.place_m, velocity_m_s: other_m_s, uncertainty_m: 0.4, ..ONESELF },
+        Neighbour { velocity_m_s, uncertainty_m: 0.3, ..neighbour(0.0, 0.0) },
     );
     let [ours_m, theirs_m] = [(oneself, there), seen_from_there]
         .map(|(oneself, neighbour)| room_m(AT, &oneself, &neighbour));
@@ -110,7 +110,7 @@ fn who_is_where_it_cannot_have_got_to_is_as_uncertain_as_that() {
     assert_eq!(result(after(100, 2.4)), Err(NotHeard::Jumps));
     assert_eq!(result(after(1000, 3.7)), Ok(()), "meanwhile it may have got there");
     assert_eq!(result(after(1000, 3.9)), Err(NotHeard::Jumps));
-    let uncertain = Neighbour { deviation_m: 0.5, ..after(100, 4.3) };
+    let uncertain = Neighbour { uncertainty_m: 0.5, ..after(100, 4.3) };
     assert_eq!(result(uncertain), Ok(()), "it was not exactly known");
     // It is kept away from as from one whose place has that deviation, and by less as time goes on.
     let keeps_m = |told: &[Neighbour]| {
@@ -141,8 +141,8 @@ fn who_is_where_it_cannot_have_got_to_is_as_uncertain_as_that() {
 /// Whoever is only uncertain, or silent, is likelier where it tells than on the other side.
 #[test]
 fn who_contradicts_itself_by_more_than_it_is_far_may_be_in_any_direction() {
-    let is_anywhere = |deviation_m, doubt_m, age_ms| {
-        let known = Known { told: Neighbour { deviation_m, ..neighbour(3.0, 0.0) }, doubt_m };
+    let is_anywhere = |uncertainty_m, doubt_m, age_ms| {
+        let known = Known { told: Neighbour { uncertainty_m, ..neighbour(3.0, 0.0) }, doubt_m };
         other(AT + Duration::from_millis(age_ms), &ONESELF, &known).is_anywhere(ONESELF.place_m)
     };
     assert!(!is_anywhere(0.0, 1.49, 0) && is_anywhere(0.0, 1.51, 0));
@@ -164,9 +164,9 @@ fn nonsense_is_not_heard_nor_more_than_fit() {
     for nonsense in [
         Neighbour { place_m: nan, ..neighbour(1.0, 0.0) },
         Neighbour { velocity_m_s: nan, ..neighbour(1.0, 0.0) },
-        Neighbour { deviation_m: f64::INFINITY, ..neighbour(1.0, 0.0) },
+        Neighbour { uncertainty_m: f64::INFINITY, ..neighbour(1.0, 0.0) },
         Neighbour { separation_m: f64::NAN, ..neighbour(1.0, 0.0) },
-        Neighbour { deviation_m: -0.1, ..neighbour(1.0, 0.0) },
+        Neighbour { uncertainty_m: -0.1, ..neighbour(1.0, 0.0) },
         Neighbour { separation_m: -0.1, ..neighbour(1.0, 0.0) },
     ] {
         assert_eq!(heard(&[nonsense]).1, [Err(NotHeard::Nonsense)], "{nonsense:?}");
@@ -217,8 +217,8 @@ fn who_is_silent_or_flies_near_is_known_before_a_take_off() {
     };
     assert_eq!(near(neighbour(1.4, 0.0)), [(2, 1.4)]);
     assert_eq!(near(neighbour(1.6, 0.0)), []);
-    let near_if = |presence, deviation_m, system, x_m| {
-        near(Neighbour { system, deviation_m, presence, ..neighbour(x_m, 0.0) }).len() == 1
+    let near_if = |presence, uncertainty_m, system, x_m| {
+        near(Neighbour { system, uncertainty_m, presence, ..neighbour(x_m, 0.0) }).len() == 1
     };
     let (stands, starts) = (Presence::Stands, Presence::Starts);
     assert!(

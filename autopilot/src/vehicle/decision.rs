@@ -23,7 +23,7 @@ pub struct Decision {
     /// Predicted position and motion of the drone.
     pub state: Prediction,
     /// Standard deviation of the height, in metres.
-    pub vertical_deviation_m: f64,
+    pub height_uncertainty_m: f64,
     /// What each quantity in navdata is worth, in the order of [`Quantity::ALL`].
     pub worth: [Worth; Quantity::ALL.len()],
     /// What lasts of the wind, as an acceleration of the drone along x and y in the world; of it the percepts have the share

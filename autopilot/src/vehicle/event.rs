@@ -21,7 +21,7 @@ pub enum FlightEvent {
     ConfigurationNotRead,
     /// The drone does not send its clock: time is taken from the arrival of packets.
     NoDroneClock,
-    /// The drone does not confirm that it looks for roundels: the position may drift.
+    /// The drone does not confirm that it looks for tags: the position may drift.
     NoTagDetection,
     /// The drone does not confirm the bit rate of the video.
     NoVideoRate,

@@ -16,7 +16,7 @@ pub(super) const GPS_MAX_AGE: Duration = Duration::from_secs(2);
 /// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
 /// so flying does not depend on it.
 pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
-/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
+/// What makes the drone look for tags. A firmware may not know it, or not let the default configuration
 /// change it: the flight does not depend on it.
 pub(super) const DETECTION_SECTION: &str = "detect:";
 /// The video, on which no flight depends.
@@ -41,7 +41,7 @@ impl Vehicle {
         Ok(())
     }
 
-    /// What the session does not need: roundels, and the flight recorder's position, which is not in every packet.
+    /// What the session does not need: tags, and the flight recorder's position, which is not in every packet.
     fn handle_further_options(&mut self, now: Duration, packet: &Packet<'_>) {
         if self.config.estimator.tags.is_some() && packet.demo().is_some() {
             self.flight.estimator.see(&sights(packet));

@@ -294,7 +294,7 @@ struct Configured {
     unconfirmed: Vec<String>,
     /// The configuration could not be read back.
     not_read: bool,
-    /// It does not look for roundels.
+    /// It does not look for tags.
     no_detection: bool,
     /// The drone has not confirmed the video's bit rate.
     no_video_rate: bool,
@@ -458,8 +458,8 @@ impl Vehicle {
             distance_m: self.flight.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),
             battery_v: self.battery_v(),
-            horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
-            vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            uncertainty_m: self.flight.estimator.uncertainty_m(now),
+            height_uncertainty_m: self.flight.estimator.height_uncertainty_m(now),
             rests_on: RestsOn::of(tags.as_ref()),
             contradicted_by: self.flight.cross_checks.contradicts(),
             tags,

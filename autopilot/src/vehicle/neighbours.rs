@@ -31,7 +31,7 @@ impl Vehicle {
             at: estimate.at,
             place_m: estimate.position_m.xy(),
             velocity_m_s: estimate.velocity_m_s.xy(),
-            deviation_m: self.flight.estimator.horizontal_deviation_m(estimate.at),
+            uncertainty_m: self.flight.estimator.uncertainty_m(estimate.at),
             separation_m: self.config.separation_m,
             presence: self.presence(now),
             claim: self.flight.safety.claim(),
@@ -67,8 +67,8 @@ impl Vehicle {
             *start = Start {
                 place_m: state.position_m.xy(),
                 heading_deg: state.yaw_deg,
-                deviation_m: estimator.horizontal_deviation_m(now),
-                heading_deviation_deg: estimator.heading_deviation_deg(),
+                uncertainty_m: estimator.uncertainty_m(now),
+                heading_uncertainty_deg: estimator.heading_uncertainty_deg(),
             };
         }
     }
@@ -80,7 +80,7 @@ impl Vehicle {
             rank: self.flight.safety.claim().map(|claim| claim.rank),
             place_m: state.position_m.xy(),
             velocity_m_s: state.velocity_m_s.xy(),
-            deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+            uncertainty_m: self.flight.estimator.uncertainty_m(now),
             separation_m: self.config.separation_m,
         }
     }

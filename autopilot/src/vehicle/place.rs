@@ -59,12 +59,12 @@ impl CrossChecks {
         now: Duration,
         fix: &GpsFix,
         place_m: Vector2<f64>,
-        deviation_m: f64,
+        uncertainty_m: f64,
     ) -> bool {
         let Some(start) = &self.start else { return false };
         let off_m = (distance_m(start, fix) - place_m.norm()).abs();
         let error_m = start.horizontal_error_m.hypot(fix.horizontal_error_m);
-        let is_off = off_m > GPS_ERRORS * error_m + DEVIATIONS * deviation_m;
+        let is_off = off_m > GPS_ERRORS * error_m + DEVIATIONS * uncertainty_m;
         self.gps_off.lasts(now, is_off, GPS_LASTS)
     }
 }
@@ -88,12 +88,12 @@ impl Vehicle {
         let flight = &mut self.flight;
         let start_m = self.config.estimator.start.unwrap_or_default().place_m;
         let place_m = flight.estimator.estimate().position_m.xy() - start_m;
-        let deviation_m = flight.estimator.horizontal_deviation_m(now);
+        let uncertainty_m = flight.estimator.uncertainty_m(now);
         let cross_checks = &mut flight.cross_checks;
         // In a silence nothing can be seen.
         let seen_s = if heard { step_s } else { 0.0 };
         let by_tags = tags.is_some_and(|tags| cross_checks.see_tags(tags, seen_s));
-        let by_gps = fix.is_some_and(|fix| cross_checks.see_gps(now, &fix, place_m, deviation_m));
+        let by_gps = fix.is_some_and(|fix| cross_checks.see_gps(now, &fix, place_m, uncertainty_m));
         let found = by_tags.then_some(CrossCheck::Tags).or(by_gps.then_some(CrossCheck::Gps));
         if cross_checks.contradicts.is_none()
             && let Some(by) = found

@@ -17,7 +17,7 @@ pub struct Waypoint {
     /// Estimated pose at the end of the stay.
     pub pose: Pose,
     /// Standard deviation of that estimate on the worse horizontal axis.
-    pub horizontal_deviation_m: f64,
+    pub uncertainty_m: f64,
     /// What that deviation rests on.
     pub rests_on: RestsOn,
     /// Time of the end of the stay.
@@ -77,7 +77,7 @@ mod tests {
             step: 0,
             target,
             pose,
-            horizontal_deviation_m: 0.1,
+            uncertainty_m: 0.1,
             rests_on: RestsOn::Velocity,
             at: Duration::from_secs(9),
         };

@@ -51,13 +51,13 @@ pub struct Status {
     pub battery_v: Option<f64>,
     /// Standard deviation of the position on the worse horizontal axis. It grows with time, because velocity is
     /// integrated.
-    pub horizontal_deviation_m: f64,
+    pub uncertainty_m: f64,
     /// What that deviation rests on.
     pub rests_on: RestsOn,
     /// What has contradicted the position in this flight.
     pub contradicted_by: Option<CrossCheck>,
     /// Standard deviation of the height.
-    pub vertical_deviation_m: f64,
+    pub height_uncertainty_m: f64,
     /// What is known by tags, if they are used.
     pub tags: Option<TagStatus>,
     /// Position by the drone's flight recorder, if it has one and is asked. Nothing is flown by it.

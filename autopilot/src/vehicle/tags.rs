@@ -1,4 +1,4 @@
-//! Roundels on the floor: what navdata tell of them, and the small turn by which it is learnt how to read them.
+//! Tags on the floor: what navdata tell of them, and the small turn by which it is learnt how to read them.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ const ROUNDELS: [u32; 2] = [3, 8];
 /// The bottom camera, at full speed and in step with the hover.
 const BOTTOM: [u32; 2] = [1, 2];
 
-/// The roundels below the drone that a packet tells of.
+/// The tags below the drone that a packet tells of.
 pub(super) fn sights(packet: &Packet<'_>) -> Sights {
     packet.vision_detect().map_or(Sights::default(), |detected| Sights::new(&detected))
 }
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_roundels_below_the_drone_count_and_never_more_than_fit() {
+    fn only_tags_below_the_drone_count_and_never_more_than_fit() {
         let mut detected = VisionDetect { count: 4_000_000, ..VisionDetect::default() };
         detected.kinds = [1 << 16 | 8, 8, 2 << 16 | 3, 1 << 16 | 6];
         detected.x = [1, 2, 3, 4];

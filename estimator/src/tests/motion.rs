@@ -81,10 +81,8 @@ fn on_the_ground_the_orders_move_nothing() {
         assert_eq!(moved_m.y > 0.05, airborne, "{moved_m}");
         assert_eq!(moved_m.z > 0.05, airborne, "{moved_m}");
         let now = flight.now() + Duration::from_secs(2);
-        let (aside_m, up_m) = (
-            flight.estimator.horizontal_deviation_m(now),
-            flight.estimator.vertical_deviation_m(now),
-        );
+        let (aside_m, up_m) =
+            (flight.estimator.uncertainty_m(now), flight.estimator.height_uncertainty_m(now));
         assert_eq!(aside_m > 0.1 && up_m > 0.1, airborne, "silence in the air is uncertain");
     }
 }
@@ -93,18 +91,18 @@ fn on_the_ground_the_orders_move_nothing() {
 fn silence_and_disputed_heights_make_the_height_uncertain() {
     let mut flight = Flight::new(&unidentified());
     flight.fly(32);
-    let deviation_m = |flight: &Flight, ms| {
-        flight.estimator.vertical_deviation_m(flight.now() + Duration::from_millis(ms))
+    let uncertainty_m = |flight: &Flight, ms| {
+        flight.estimator.height_uncertainty_m(flight.now() + Duration::from_millis(ms))
     };
-    let before_m = deviation_m(&flight, 0);
+    let before_m = uncertainty_m(&flight, 0);
     assert!((0.01..0.02).contains(&before_m), "{before_m}");
-    assert!(deviation_m(&flight, 2000) > 1.0);
+    assert!(uncertainty_m(&flight, 2000) > 1.0);
     flight.shown.altitude_m = 1.5;
     flight.step();
-    assert_near(deviation_m(&flight, 0), 0.5, 0.01);
+    assert_near(uncertainty_m(&flight, 0), 0.5, 0.01);
     // The floor has made a step, which is not known exactly.
     flight.fly(10);
-    let stepped_m = deviation_m(&flight, 0);
+    let stepped_m = uncertainty_m(&flight, 0);
     assert!((1.2 * before_m..0.1).contains(&stepped_m), "{stepped_m}");
 }
 
@@ -342,11 +340,11 @@ fn after_a_restart_the_position_goes_on_and_the_clock_and_the_compass_begin_anew
     assert!(before.position_m.y > 0.5);
     let [sure_m, silent_m] = [0, 1000].map(|ms| {
         let at = before.at + Duration::from_millis(ms);
-        flight.estimator.horizontal_deviation_m(at)
+        flight.estimator.uncertainty_m(at)
     });
     flight.estimator.handle_restart(before.at + Duration::from_secs(1));
     // Nobody has seen what it flew in that second.
-    let unsure_m = flight.estimator.horizontal_deviation_m(before.at);
+    let unsure_m = flight.estimator.uncertainty_m(before.at);
     assert!(silent_m > sure_m + 0.2, "{sure_m} {silent_m}");
     assert_near(unsure_m, silent_m, 1e-9);
     flight.packet += 160;

@@ -50,7 +50,7 @@ fn wrong_echoes_are_ignored() {
 
 /// Standard deviation of the height that was measured now.
 fn now_m(filter: &AltitudeFilter) -> f64 {
-    filter.deviation_m(0.0, Order::Sticks(Sticks::default()))
+    filter.uncertainty_m(0.0, Order::Sticks(Sticks::default()))
 }
 
 /// One echo from a filter that has received nothing for `gap_s`.
@@ -382,7 +382,7 @@ fn silence_and_a_restart_make_a_height_uncertain() {
     let mut filter = hovering(1.0);
     // Nearly the way of an unheard climb of 0.9 m/s with a lag of half a second.
     let unheard_m = 0.9 * (1.9 - 0.5 * (1.0 - (-3.8_f64).exp()));
-    let silent_m = filter.deviation_m(2.0, order);
+    let silent_m = filter.uncertainty_m(2.0, order);
     assert!((unheard_m..1.1 * unheard_m).contains(&silent_m), "{silent_m}");
     let before_m = now_m(&filter);
     filter.handle_restart();

@@ -7,12 +7,12 @@ use super::{Sight, TagConfig};
 
 /// Pattern size that the firmware assumes for its distance.
 const FIRMWARE_SIZE_M: f64 = 0.222;
-/// Relative error of distance or size beyond which a sighting is not one of our roundels.
+/// Relative error of distance or size beyond which a sighting is not one of our tags.
 const WRONG_SIZE: f64 = 0.4;
 /// Largest angle from the vertical; the picture ends long before.
 const STEEPEST_RAD: f64 = 1.0;
 
-/// Position of a roundel relative to the drone.
+/// Position of a tag relative to the drone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Look {
     /// Right and forward of the point below the drone, levelled.
@@ -22,7 +22,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// `None` if the sighting cannot be one of our roundels on the floor, or is not complete.
+    /// `None` if the sighting cannot be one of our tags on the floor, or is not complete.
     pub(super) fn new(sight: &Sight, moment: &Moment, config: &TagConfig) -> Option<Self> {
         let [focal_x, focal_y] = config.focal_units;
         let [centre_x, centre_y] = config.centre_units;
@@ -56,7 +56,7 @@ impl Look {
 /// Error of the camera and its mounting that tags do not reveal, as a fraction of the height.
 const CAMERA_ERROR: f64 = 0.1;
 
-/// Whether a roundel is whole in the picture, wherever within `margin_m` of this offset (right, forward, levelled) it lies.
+/// Whether a tag is whole in the picture, wherever within `margin_m` of this offset (right, forward, levelled) it lies.
 pub(super) fn is_surely_whole(
     offset_m: Vector2<f64>,
     margin_m: f64,

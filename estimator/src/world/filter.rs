@@ -92,10 +92,10 @@ impl Filter {
         for axis in 0..2 {
             set(BIAS + axis, BIAS_M_S);
             set(CAMERA + axis, CAMERA_RAD);
-            set(PLACE + axis, start.deviation_m.max(least_m));
+            set(PLACE + axis, start.uncertainty_m.max(least_m));
         }
         set(RATE, RATE_DEG_S.to_radians());
-        set(HEADING, start.heading_deviation_deg.max(least_deg).to_radians());
+        set(HEADING, start.heading_uncertainty_deg.max(least_deg).to_radians());
         filter
     }
 
@@ -107,7 +107,7 @@ impl Filter {
     }
 
     /// Standard deviation of the heading.
-    pub(super) fn heading_deviation_deg(&self) -> f64 {
+    pub(super) fn heading_uncertainty_deg(&self) -> f64 {
         self.p[HEADING][HEADING].sqrt().to_degrees()
     }
 
@@ -259,7 +259,7 @@ impl Filter {
         wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
     }
 
-    pub(super) fn tag_deviation_m(&self, tag: usize) -> f64 {
+    pub(super) fn tag_uncertainty_m(&self, tag: usize) -> f64 {
         let state = TAGS + 3 * tag;
         self.p[state][state].max(self.p[state + 1][state + 1]).sqrt()
     }

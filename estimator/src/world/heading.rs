@@ -24,8 +24,8 @@ impl World {
         if self.map.has_heading(tag) {
             let measured_deg = turned.newest_deg.unwrap_or(direction_deg);
             let off_deg = wrap_deg(measured_deg - self.filter.tag_heading_deg(tag));
-            let deviation_deg = self.filter.heading_deviation_deg();
-            let turns = self.map.watch_direction(tag, off_deg, deviation_deg);
+            let uncertainty_deg = self.filter.heading_uncertainty_deg();
+            let turns = self.map.watch_direction(tag, off_deg, uncertainty_deg);
             if turns || self.filter.heading_rate_deg_s().abs() > MOST_RATE_DEG_S {
                 self.distrust_direction(tag);
             } else {

@@ -25,7 +25,7 @@ pub struct KnownTag {
     /// Direction of its pattern as a yaw in the world, once it is known.
     pub heading_deg: Option<f64>,
     /// Standard deviation of the position on the worse axis.
-    pub deviation_m: f64,
+    pub uncertainty_m: f64,
     /// Whether its position was given.
     pub surveyed: bool,
     /// Time since it was last seen; `None` if it has not been seen yet.

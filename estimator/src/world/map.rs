@@ -119,7 +119,7 @@ impl Map {
                 id,
                 place_m: filter.tag_place_m(tag),
                 heading_deg: self.has_heading(tag).then(|| filter.tag_heading_deg(tag)),
-                deviation_m: filter.tag_deviation_m(tag),
+                uncertainty_m: filter.tag_uncertainty_m(tag),
                 surveyed,
                 seen_ago: Duration::try_from_secs_f64((now_s - seen_s).max(0.0)).ok(),
             }
@@ -245,9 +245,9 @@ impl Map {
     ) -> bool {
         let others_1_m2 = if self.slots[known].surveyed { NOT_SURVEYED_1_M2 } else { OTHERS_1_M2 };
         let known_deg = self.has_heading(known).then(|| filter.tag_heading_deg(known));
-        let deviation_deg = filter.heading_deviation_deg();
+        let uncertainty_deg = filter.heading_uncertainty_deg();
         let log_odds = filter.log_odds_of_one(trial, known, way_m, others_1_m2)
-            + orientation.log_odds_of_one(trial, known, known_deg, deviation_deg);
+            + orientation.log_odds_of_one(trial, known, known_deg, uncertainty_deg);
         log_odds >= CERTAIN_ODDS.ln()
     }
 

@@ -1,8 +1,8 @@
-//! Where the odometry's frame lies in the world, how well that is known, and the roundels on the floor that show it.
+//! Where the odometry's frame lies in the world, how well that is known, and the tags on the floor that show it.
 //!
 //! The odometry remains the integral of the velocity: smooth, in a frame that drifts. This module estimates
 //! position and direction of that frame in the world: `world = odometry + correction`, rotated by a heading
-//! correction. Each sighting of a roundel is compared with the odometry at the time of its picture, so
+//! correction. Each sighting of a tag is compared with the odometry at the time of its picture, so
 //! nothing has to be rolled back. The world frame is that of the start: right and forward of the drone's
 //! initial position, unless the [`Start`] is elsewhere.
 //!
@@ -73,7 +73,7 @@ impl Default for TagConfig {
     }
 }
 
-/// A roundel in the bottom camera's picture, as reported in navdata.
+/// A tag in the bottom camera's picture, as reported in navdata.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sight {
     /// Centre, 0 to 1000 from left to right.
@@ -84,7 +84,7 @@ pub struct Sight {
     pub width: f64,
     /// Height of the box, in thousandths of the picture's height.
     pub height: f64,
-    /// Distance derived from the roundel's apparent size.
+    /// Distance derived from the tag's apparent size.
     pub distance_m: f64,
     /// Orientation of the pattern in the picture; 270 when the drone is aligned with it. On its sign see [`OrientationSign`].
     pub orientation_deg: f64,
@@ -382,7 +382,7 @@ impl World {
 
     /// Standard deviation of the position on the worse axis, at this odometry and height, without the
     /// contribution of silence.
-    pub(crate) fn deviation_m(&self, odometry_m: Vector2<f64>, height_m: f64) -> f64 {
+    pub(crate) fn uncertainty_m(&self, odometry_m: Vector2<f64>, height_m: f64) -> f64 {
         /// Tilt, delay and the picture's centre do not average out: a fraction of the height.
         const SYSTEMATIC: f64 = 0.012;
         const FLOOR_M: f64 = 0.015;
@@ -412,8 +412,8 @@ impl World {
     }
 
     /// Standard deviation of the heading.
-    pub(crate) fn heading_deviation_deg(&self) -> f64 {
-        self.filter.heading_deviation_deg()
+    pub(crate) fn heading_uncertainty_deg(&self) -> f64 {
+        self.filter.heading_uncertainty_deg()
     }
 
     /// The known tags; `None` if tags are not used.
@@ -431,7 +431,7 @@ impl World {
 
     /// Whether a known tag should be in the picture of a drone at this moment, wherever within [`DUE_DEVIATIONS`] of this
     /// deviation it is.
-    pub(crate) fn is_due(&self, now_s: f64, moment_yaw_deg: f64, deviation_m: f64) -> bool {
+    pub(crate) fn is_due(&self, now_s: f64, moment_yaw_deg: f64, uncertainty_m: f64) -> bool {
         let Some(config) = &self.config else { return false };
         let Some(moment) = self.history.at(now_s, moment_yaw_deg) else { return false };
         if moment.height_m < DUE_LOWEST_M || moment.speed_m_s > DUE_SLOW_M_S {
@@ -441,7 +441,7 @@ impl World {
         let known = self.map.known_tags(&self.filter, now_s);
         known.iter().any(|tag| {
             let offset_m = body_from_world(tag.place_m - here_m, yaw_deg);
-            let margin_m = DUE_DEVIATIONS * deviation_m.hypot(tag.deviation_m);
+            let margin_m = DUE_DEVIATIONS * uncertainty_m.hypot(tag.uncertainty_m);
             camera::is_surely_whole(offset_m, margin_m, &moment, config)
         })
     }

@@ -1,4 +1,4 @@
-//! Sign of a roundel's orientation, and directions of the roundels.
+//! Sign of a tag's orientation, and directions of the tags.
 //!
 //! Clients of the real drone contradict each other on the sign. With the right sign a tag's direction does
 //! not depend on the drone's heading; with the wrong one it turns by twice the angle. Any turn therefore
@@ -112,15 +112,15 @@ impl Orientation {
 
     /// Logarithm of the odds, by their directions, that a tag on trial is a known one and not another that is
     /// turned at random. Zero if a direction is not known. `known_deg`: the known one's direction, if it was
-    /// not derived from its sightings; `deviation_deg`: standard deviation of the heading.
+    /// not derived from its sightings; `uncertainty_deg`: standard deviation of the heading.
     pub(super) fn log_odds_of_one(
         &self,
         trial: usize,
         known: usize,
         known_deg: Option<f64>,
-        deviation_deg: f64,
+        uncertainty_deg: f64,
     ) -> f64 {
-        let variance_deg2 = ORIENTATION_DEG.powi(2) + deviation_deg.powi(2);
+        let variance_deg2 = ORIENTATION_DEG.powi(2) + uncertainty_deg.powi(2);
         let most = 360.0 / (std::f64::consts::TAU * variance_deg2).sqrt();
         let odds = |reading: usize| {
             let (mean, trial) = (&self.means[known][reading], &self.trials[trial][reading]);

@@ -74,8 +74,8 @@ impl Bench {
         self.estimator.predicted(self.now()).position_m.xy()
     }
 
-    fn deviation_m(&self) -> f64 {
-        self.estimator.horizontal_deviation_m(self.now())
+    fn uncertainty_m(&self) -> f64 {
+        self.estimator.uncertainty_m(self.now())
     }
 }
 
@@ -104,11 +104,11 @@ fn a_tag_below_ends_the_drift() {
     without.fly(3000, none);
     assert!(without.place_m().norm() > 2.0, "{}", without.place_m());
     assert!(with.place_m().norm() < 0.05, "{}", with.place_m());
-    assert!(with.deviation_m() < 0.1 && without.deviation_m() > 1.0);
+    assert!(with.uncertainty_m() < 0.1 && without.uncertainty_m() > 1.0);
     let tag = with.estimator.tag_status(with.now()).unwrap();
     let tag = tag.known.iter().next().unwrap();
     assert!((tag.place_m - with.tag_m).norm() < 0.05, "{tag:?}");
-    assert!(!tag.surveyed && tag.deviation_m < 0.15, "{tag:?}");
+    assert!(!tag.surveyed && tag.uncertainty_m < 0.15, "{tag:?}");
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn single_sights_of_something_else_lead_nobody_astray() {
     let led_m = (bench.place_m() - honest.place_m()).norm();
     assert!(led_m < 0.2, "some agree by chance: {led_m}");
     assert_eq!(bench.estimator.tag_status(bench.now()).unwrap().known.count(), 0);
-    assert!(bench.deviation_m() > 0.7 * honest.deviation_m());
+    assert!(bench.uncertainty_m() > 0.7 * honest.uncertainty_m());
 }
 
 #[test]
@@ -182,9 +182,9 @@ fn a_tag_that_is_carried_away_does_not_take_the_drone_with_it() {
         }
     }
     assert!(bench.place_m().norm() < 0.4, "{}", bench.place_m());
-    let before_m = bench.deviation_m();
+    let before_m = bench.uncertainty_m();
     bench.fly(300, none);
-    assert!(bench.deviation_m() > before_m + 0.05, "it is no longer sure");
+    assert!(bench.uncertainty_m() > before_m + 0.05, "it is no longer sure");
 }
 
 #[test]

@@ -475,8 +475,8 @@ impl View<'_> {
         };
         ESTIMATOR_STATUS_DATA {
             time_usec: us(self.at),
-            pos_horiz_accuracy: f32_of(self.status.horizontal_deviation_m),
-            pos_vert_accuracy: f32_of(self.status.vertical_deviation_m),
+            pos_horiz_accuracy: f32_of(self.status.uncertainty_m),
+            pos_vert_accuracy: f32_of(self.status.height_uncertainty_m),
             flags,
             ..ESTIMATOR_STATUS_DATA::default()
         }

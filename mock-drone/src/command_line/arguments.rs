@@ -65,7 +65,7 @@ start, or with a plus since the first take-off; # starts a comment.
   +22   motor 70 over 2          remaining percent of its thrust, reached after these seconds
   +23   second-pilot 5           seconds in which another client commands a hover; its sequence
                                  numbers start at 1, or with `from 5000` at the end there
-  +24   tag 1.5 -0.5 90          place a roundel: metres right and forward, degrees; likewise
+  +24   tag 1.5 -0.5 90          place a tag: metres right and forward, degrees; likewise
                                  tag-moved 1 0 0 90 (number and new place) and tag-gone 1
   +25   video cut for 3          seconds in which the video's connections are closed; likewise
                                  silent (they stay open without data), garbage (random bytes)
@@ -145,7 +145,7 @@ pub(super) struct DroneArguments {
     /// Standard deviation of the gusts, in metres a second
     #[arg(long, value_name = "M/S", default_value_t = 0.0, value_parser = not_negative)]
     pub(super) gusts: f64,
-    /// A roundel on the floor: metres to the right and forward of the start, and its heading clockwise in
+    /// A tag on the floor: metres to the right and forward of the start, and its heading clockwise in
     /// degrees; may be repeated
     #[arg(long, value_name = "X,Y[,HEADING]", value_parser = floor_tag, allow_hyphen_values = true)]
     pub(super) tag: Vec<FloorTag>,

@@ -323,7 +323,7 @@ fn the_same_seed_flies_the_same_flight() {
     assert_eq!(fly(), fly());
 }
 
-/// Number of roundels in the newest packet.
+/// Number of tags in the newest packet.
 fn reported_tags(bench: &mut Bench) -> u32 {
     bench.now += DEMO_PERIOD;
     bench.drone.advance(bench.now);
@@ -332,7 +332,7 @@ fn reported_tags(bench: &mut Bench) -> u32 {
 }
 
 #[test]
-fn roundels_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
+fn tags_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
     let camera = CameraModel::perfect();
     let config = DroneConfig { flies_at_m: Some(1.5), camera, ..DroneConfig::default() };
     for (settings, seen) in [

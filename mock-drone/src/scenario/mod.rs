@@ -113,9 +113,9 @@ pub enum Action {
     Motor(f64, Duration),
     /// The wind towards (right, forward), and the standard deviation of its gusts on each axis, both in m/s.
     Wind(Vector2<f64>, f64),
-    /// A roundel is placed on the floor.
+    /// A tag is placed on the floor.
     LayTag(FloorTag),
-    /// A roundel is moved or removed; the first one placed is 0.
+    /// A tag is moved or removed; the first one placed is 0.
     MoveTag(usize, Option<FloorTag>),
     /// Sets the charge in percent.
     Battery(f64),

@@ -1,4 +1,4 @@
-//! Pictures of a floor whose texture is fixed to the world, with the roundels that lie on it.
+//! Pictures of a floor whose texture is fixed to the world, with the tags that lie on it.
 
 use nalgebra::{Rotation3, Vector2, Vector3};
 
@@ -51,7 +51,7 @@ pub struct View {
 /// What there is to see.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
-    /// Roundels on the floor.
+    /// Tags on the floor.
     pub tags: Vec<FloorTag>,
 }
 
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn a_roundel_is_where_the_projection_says() {
+    fn a_tag_is_where_the_projection_says() {
         let scene = Scene { tags: vec![FloorTag::new(0.3, -0.1, 90.0)] };
         let pixels = rendered(&scene, &above(0.0, 0.0, 1.0));
         // 0.3 m right and 0.1 m behind, 1 m below.

@@ -271,7 +271,7 @@ impl Judge {
                 }
                 // A drone that stays inside resists more wind than calculated.
                 Danger::Wind => overpowered && self.fence.is_outside(truth),
-                Danger::Lost => status.horizontal_deviation_m > LOST_M,
+                Danger::Lost => status.uncertainty_m > LOST_M,
                 Danger::Station => self.silence.is_station_gone(now),
                 Danger::Setpoints => self.silence.are_setpoints_gone(now),
             };
@@ -358,7 +358,7 @@ impl Judge {
             to_be_judged && error_m > DEVIATIONS * claimed_m + TRIFLE_M
         };
         let (place_claimed_m, height_claimed_m) =
-            (status.horizontal_deviation_m, status.vertical_deviation_m);
+            (status.uncertainty_m, status.height_uncertainty_m);
         let place_is_wrong =
             is_wrong(place_error_m, place_claimed_m) && !self.injected.has_lied_of_place(*now);
         if self.place_wrong.watch(place_is_wrong) > WRONG_FOR {
@@ -450,7 +450,7 @@ impl Judge {
             let Some(error_m) = self.targets.error_m(waypoint.step, truth) else { continue };
             let lied = self.injected.has_lied_of_place(waypoint.at);
             let reached_m = if lied { REACHED_LYING_M } else { REACHED_M };
-            let claimed_m = DEVIATIONS * waypoint.horizontal_deviation_m + TRIFLE_M;
+            let claimed_m = DEVIATIONS * waypoint.uncertainty_m + TRIFLE_M;
             if error_m > reached_m + claimed_m {
                 self.find(waypoint.at, Fault::TargetMissed { step: waypoint.step, error_m });
             }

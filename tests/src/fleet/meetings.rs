@@ -81,7 +81,7 @@ pub fn take_off(seed: u64) -> Fleet {
     let apart_m: f64 = random.random_range(1.6..1.9);
     let mut fleet = crossing(2, apart_m / 2.0, seed);
     for member in &mut fleet.members {
-        member.start.deviation_m = UNSURE_M;
+        member.start.uncertainty_m = UNSURE_M;
         let [x_m, y_m] = (member.start.place_m * 3.0).into();
         member.plan = format!("takeoff\ngoto {x_m} {y_m} 0.5 0\nland\n");
     }

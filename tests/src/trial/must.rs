@@ -75,7 +75,7 @@ impl Must {
                     return None;
                 }
                 let added_m = (now_m - *error_m.get_or_insert(now_m)).norm();
-                let claimed_m = status.horizontal_deviation_m;
+                let claimed_m = status.uncertainty_m;
                 let is_wrong = added_m > DEVIATIONS * claimed_m + TRIFLE_M;
                 *wrong_for = if is_wrong { *wrong_for + TICK } else { Duration::ZERO };
                 (*wrong_for > WRONG_FOR)

@@ -46,7 +46,7 @@ const dangers = (() => {
     if (flies && status.contradicted_by) return { level: "alarm", text: `THE PLACE IS WRONG: ${status.contradicted_by} contradicts it. Watch the drone itself; land, or fly it by hand.` };
     if (flies && age > LATE_S) return { level: "warn", text: `No navdata for ${age.toFixed(1)} s: the drone hovers until they come.` };
     if (flies && status.battery_percent !== null && status.battery_percent <= flight.battery_warns_percent) return { level: "warn", text: `Battery at ${status.battery_percent} %: land soon.` };
-    if (flies && status.horizontal_deviation_m > DOUBTFUL_M) return { level: "warn", text: `The uncertainty of the place is ${status.horizontal_deviation_m.toFixed(1)} m: watch the drone itself.` };
+    if (flies && status.uncertainty_m > DOUBTFUL_M) return { level: "warn", text: `The uncertainty of the place is ${status.uncertainty_m.toFixed(1)} m: watch the drone itself.` };
     if (now - warned.at < SHOWN) return { level: "warn", text: warned.text };
     return null;
   }

@@ -91,7 +91,7 @@ const fleet = (() => {
       if (!pose) continue;
       const [doubt, drone, label] = mark.children;
       const place = `translate(${pose.x_m} ${-pose.y_m}) scale(${size})`;
-      set(doubt, { cx: pose.x_m, cy: -pose.y_m, r: 2 * others.get(name).horizontal_deviation_m });
+      set(doubt, { cx: pose.x_m, cy: -pose.y_m, r: 2 * others.get(name).uncertainty_m });
       set(drone, { transform: `${place} rotate(${pose.yaw_deg})` });
       set(label, { transform: place });
     }

@@ -183,7 +183,7 @@ const map = (() => {
     put("wanted", wanted);
     $("doubt").style.display = pose ? "" : "none";
     if (pose) {
-      set($("doubt"), { cx: pose.x_m, cy: -pose.y_m, r: 2 * status.horizontal_deviation_m });
+      set($("doubt"), { cx: pose.x_m, cy: -pose.y_m, r: 2 * status.uncertainty_m });
     }
     const end = trail.at(-1);
     if (end !== trailDrawn) set($("trail"), { d: flownWay() });
@@ -232,7 +232,7 @@ const map = (() => {
       }
       const mark = tags.get(tag.id);
       const [spread, roundel, number] = mark.children;
-      set(spread, { r: tag.deviation_m });
+      set(spread, { r: tag.uncertainty_m });
       set(roundel, { transform: `scale(${size * 0.8}) rotate(${tag.heading_deg ?? 0})` });
       roundel.firstChild.style.display = tag.heading_deg === null ? "none" : "";
       set(number, { transform: `scale(${size * 0.8})` });
@@ -246,7 +246,7 @@ const map = (() => {
   function tagsText() {
     const seen = status.tags.seen_s === null ? "none seen yet" : `seen ${status.tags.seen_s.toFixed(1)} s ago`;
     if (!known().length) return seen;
-    const best = Math.min(...known().map((tag) => tag.deviation_m));
+    const best = Math.min(...known().map((tag) => tag.uncertainty_m));
     return `${known().length}, the best with an uncertainty of ${best.toFixed(2)} m, ${seen}`;
   }
 

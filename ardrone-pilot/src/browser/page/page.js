@@ -350,7 +350,7 @@ function drawFacts() {
   put("rate", age === null ? "none" : `${status.navdata_hz.toFixed(0)} a second, ${(age * 1000).toFixed(0)} ms old`);
   put("who", !status.controls ? "nobody" : status.controls === me ? "you" : status.controls);
   $("who").title = status.controls ?? "";
-  put("ticks", `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`, status.tick_late_s > 0.01);
+  put("timing", `${(status.tick_late_s * 1000).toFixed(1)} ms late, ticks skipped: ${status.ticks_skipped}`, status.tick_late_s > 0.01);
   put("since", decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "");
 }
 
@@ -392,9 +392,9 @@ function drawGauges() {
   $("target").textContent = target ? `${signed(target.x_m)} ${signed(target.y_m)} ${signed(target.z_m)} m` : "–";
   $("off").textContent = target ? `${status.distance_m.toFixed(2)} m` : "–";
   $("tagsknown").textContent = status.tags ? map.tagsText() : "not in use";
-  const known = status.contradicted_by ? `contradicted by ${status.contradicted_by}` : status.horizontal_deviation_holds;
-  $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m, ${known}`;
-  $("known").classList.toggle("ill", Boolean(status.contradicted_by));
+  const holds = status.contradicted_by ? `contradicted by ${status.contradicted_by}` : status.uncertainty_holds;
+  $("uncertainty").textContent = `${status.uncertainty_m.toFixed(2)} m, ${holds}`;
+  $("uncertainty").classList.toggle("ill", Boolean(status.contradicted_by));
 }
 
 function drawSteps() {

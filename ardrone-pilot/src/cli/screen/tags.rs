@@ -42,7 +42,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, status: Option<&Status>) {
 
 /// Number, position, standard deviation, heading, and time since the last sighting: 34 columns.
 fn row(tag: &KnownTag) -> String {
-    let KnownTag { id, place_m, heading_deg, deviation_m, surveyed, seen_ago } = tag;
+    let KnownTag { id, place_m, heading_deg, uncertainty_m, surveyed, seen_ago } = tag;
     let mark = if *surveyed { '*' } else { ' ' };
     let heading =
         heading_deg.map_or("-".to_owned(), |heading_deg| format!("{:+.0}°", heading_deg + 0.0));
@@ -53,7 +53,7 @@ fn row(tag: &KnownTag) -> String {
         Some(ago_s) => format!("{}min", ago_s / 60),
     };
     format!(
-        "{id:<2}{mark}{:+6.2} {:+6.2} ±{deviation_m:.2} {heading:>5} {seen:>5}",
+        "{id:<2}{mark}{:+6.2} {:+6.2} ±{uncertainty_m:.2} {heading:>5} {seen:>5}",
         place_m.x, place_m.y
     )
 }
@@ -72,7 +72,7 @@ fn known(status: Option<&Status>) -> impl Iterator<Item = &KnownTag> {
 pub(super) fn mark(context: &mut Context<'_>, status: Option<&Status>) {
     for tag in known(status) {
         let (x, y) = (tag.place_m.x, tag.place_m.y);
-        context.draw(&Circle { x, y, radius: tag.deviation_m, color: TAG });
+        context.draw(&Circle { x, y, radius: tag.uncertainty_m, color: TAG });
         context.print(x, y, Span::styled("@", Style::new().fg(TAG)));
     }
 }
@@ -88,7 +88,7 @@ mod tests {
             id,
             place_m: [-12.345, 0.5].into(),
             heading_deg: None,
-            deviation_m: 0.034,
+            uncertainty_m: 0.034,
             surveyed: true,
             seen_ago,
         }

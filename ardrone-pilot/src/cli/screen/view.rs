@@ -437,8 +437,8 @@ fn about_the_drone(view: &View) -> Vec<String> {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("uncertainty {:.2} m, {}", status.horizontal_deviation_m, known_by(status)),
-        ticks(&view.ticks),
+        format!("uncertainty {:.2} m, {}", status.uncertainty_m, rests_on(status)),
+        timing(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
         lines.insert(0, format!("NOT READY: {}", view.not_ready.join("; ")));
@@ -458,7 +458,7 @@ fn about_the_drone(view: &View) -> Vec<String> {
 }
 
 /// What this rests on, in the room that there is.
-fn known_by(status: &Status) -> String {
+fn rests_on(status: &Status) -> String {
     match (status.contradicted_by, status.rests_on) {
         (Some(by), _) => format!("CONTRADICTED: {}", by.name()),
         (None, RestsOn::Velocity) => "by velocity alone".to_owned(),
@@ -466,9 +466,9 @@ fn known_by(status: &Status) -> String {
     }
 }
 
-fn ticks(health: &TickHealth) -> String {
+fn timing(health: &TickHealth) -> String {
     let late_ms = health.lateness.as_secs_f64() * 1e3;
-    format!("ticks   {late_ms:.1} ms late, {} skipped", health.skipped)
+    format!("timing  {late_ms:.1} ms late, ticks skipped: {}", health.skipped)
 }
 
 /// The plan with its current step.

@@ -81,7 +81,7 @@ fn a_doubtful_place_is_searched_for_and_then_the_approach_goes_on() {
     let mut bench = Bench::new(Percepts { tags: Some(tag(false, true)), ..HOVERING });
     bench.go_to(TARGET);
     assert_eq!(bench.step().0, Some(AgentCommand::GoTo(TARGET)));
-    bench.percepts.position_sd_m = 1.1;
+    bench.percepts.uncertainty_m = 1.1;
     let searching = bench.run();
     assert_eq!(searching.danger, Some(Danger::Searching));
     assert_ne!(searching.command, Some(AgentCommand::GoTo(TARGET)));

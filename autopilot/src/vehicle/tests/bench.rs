@@ -28,7 +28,7 @@ pub(super) struct Bench {
     pub(super) drifts_m_s: f64,
     /// It leans by this: roll, pitch.
     pub(super) leans_deg: [f64; 2],
-    /// Its bottom camera sees a roundel below it.
+    /// Its bottom camera sees a tag below it.
     pub(super) sees_tag: bool,
     /// The flight recorder's option of its next packets.
     pub(super) gps: Option<Gps>,
@@ -205,7 +205,7 @@ impl Bench {
         assert_eq!(self.vehicle.handle(self.now, Input::Navdata(&bytes)), Ok(()));
     }
 
-    /// A roundel of 19 cm in the middle of the picture.
+    /// A tag of 19 cm in the middle of the picture.
     fn sight(&self) -> VisionDetect {
         let height_m = self.height_m.max(0.1);
         // In whole millimetres, because the picture has whole units.

@@ -18,7 +18,7 @@ fn hears(bench: &mut Bench, x_m: f64, presence: Presence, time: Duration) {
             at: bench.now,
             place_m: Vector2::new(x_m, 0.0),
             velocity_m_s: Vector2::zeros(),
-            deviation_m: 0.0,
+            uncertainty_m: 0.0,
             separation_m: 1.5,
             presence,
             claim: None,

@@ -1,4 +1,4 @@
-//! Roundels on the floor: what the agent is given of them, and the turn that teaches how to read them.
+//! Tags on the floor: what the agent is given of them, and the turn that teaches how to read them.
 
 use ardrone_link::at::Ref;
 use nalgebra::Vector2;

@@ -229,18 +229,18 @@ fn beyond_five_deviations_it_is_something_else() {
         // A sighting: the deviations of tag, sighting and scale count together.
         let mut filter = certain(variance_m2);
         let sighted = filter.sighted(&LOOK, &MOMENT, 2.0);
-        let deviation_m = (variance_m2 + sighted.variance_m2 + sighted.scale_m2).sqrt();
-        filter.x[TAGS] = sighted.place_m.x - deviation_m * deviations;
+        let uncertainty_m = (variance_m2 + sighted.variance_m2 + sighted.scale_m2).sqrt();
+        filter.x[TAGS] = sighted.place_m.x - uncertainty_m * deviations;
         filter.x[TAGS + 1] = sighted.place_m.y;
         assert_eq!(filter.admits(&sighted, 0), fits);
-        filter.x[TAGS] = sighted.place_m.x + deviation_m * deviations * 0.6;
-        filter.x[TAGS + 1] = sighted.place_m.y + deviation_m * deviations * 0.8;
+        filter.x[TAGS] = sighted.place_m.x + uncertainty_m * deviations * 0.6;
+        filter.x[TAGS + 1] = sighted.place_m.y + uncertainty_m * deviations * 0.8;
         assert_eq!(filter.admits(&sighted, 0), fits);
         // Two tags: 2 cm, and the scale of the way between.
         let mut filter = certain(variance_m2);
-        let deviation_m = (variance_m2 + 0.02_f64.powi(2) + 0.18_f64.powi(2)).sqrt();
+        let uncertainty_m = (variance_m2 + 0.02_f64.powi(2) + 0.18_f64.powi(2)).sqrt();
         filter.x[TAGS] = 1.0;
-        filter.x[TAGS + 3] = 1.0 + deviation_m * deviations;
+        filter.x[TAGS + 3] = 1.0 + uncertainty_m * deviations;
         assert_eq!(filter.may_be_one(0, 1, 3.0), fits);
         assert_eq!(filter.may_be_one(1, 0, 3.0), fits);
         // A direction.
@@ -309,7 +309,7 @@ fn a_tag_has_a_place_a_direction_and_a_deviation() {
     (filter.p[state][state], filter.p[state + 1][state + 1]) = (0.04, 0.09);
     assert_eq!(filter.tag_place_m(1), Vector2::new(1.5, -2.5));
     assert_near(filter.tag_heading_deg(1), 4.0_f64.to_degrees() - 360.0);
-    assert_near(filter.tag_deviation_m(1), 0.3);
+    assert_near(filter.tag_uncertainty_m(1), 0.3);
 }
 
 #[test]
@@ -321,6 +321,6 @@ fn the_worse_axis_counts() {
             filter.p[TAGS + 3 + axis][TAGS + 3 + axis] = variance_m2;
         }
         assert_near(filter.place_variance_m2(), 0.09);
-        assert_near(filter.tag_deviation_m(1), 0.3);
+        assert_near(filter.tag_uncertainty_m(1), 0.3);
     }
 }

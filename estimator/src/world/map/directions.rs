@@ -51,12 +51,12 @@ impl Map {
         &mut self,
         tag: usize,
         off_deg: f64,
-        deviation_deg: f64,
+        uncertainty_deg: f64,
     ) -> bool {
         let slot = &mut self.slots[tag];
         let off_deg = off_deg.clamp(-MOST_OFF_DEG, MOST_OFF_DEG);
         slot.turned_deg += (off_deg - slot.turned_deg) / MEAN_DIRECTIONS;
-        slot.turned_deg.abs() > TURNED_DEG.max(CLEAR * deviation_deg)
+        slot.turned_deg.abs() > TURNED_DEG.max(CLEAR * uncertainty_deg)
     }
 
     /// Whether a tag was turned, so that its direction is not used.

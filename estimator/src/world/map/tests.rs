@@ -94,7 +94,7 @@ fn surveyed_tags_are_known_from_the_start() {
     for (known, surveyed) in known.iter().zip(surveyed) {
         assert_eq!(known.place_m, surveyed.place_m);
         assert_eq!(known.heading_deg.is_some(), surveyed.heading_deg.is_some());
-        assert!(known.surveyed && known.deviation_m > 0.0);
+        assert!(known.surveyed && known.uncertainty_m > 0.0);
     }
     assert!((known[0].heading_deg.unwrap() - 30.0).abs() < 1e-9);
     assert!(bench.map.has_heading(0) && !bench.map.has_heading(1));
@@ -186,7 +186,7 @@ fn a_tag_on_trial_is_forgotten_after_two_seconds() {
         bench.map.forget_old(&mut bench.filter, now_s);
         assert_eq!(bench.map.is_new(1), kept);
         assert!(bench.map.is_known(0), "known ones are not");
-        assert_eq!(bench.filter.tag_deviation_m(1) > 0.0, kept);
+        assert_eq!(bench.filter.tag_uncertainty_m(1) > 0.0, kept);
     }
 }
 

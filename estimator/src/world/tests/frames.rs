@@ -169,19 +169,19 @@ fn flown_m(drone: &Drone) -> Vector2<f64> {
 #[test]
 fn the_deviation_grows_with_the_way_since_the_tag_and_with_height() {
     let mut drone = Drone::new(&surveyed());
-    let deviation_m = |drone: &Drone, odometry_m: Vector2<f64>, height_m: f64| {
-        let squares = drone.tags.deviation_m(odometry_m, height_m).powi(2);
+    let uncertainty_m = |drone: &Drone, odometry_m: Vector2<f64>, height_m: f64| {
+        let squares = drone.tags.uncertainty_m(odometry_m, height_m).powi(2);
         (squares - drone.tags.filter.place_variance_m2()).sqrt()
     };
     let far = Vector2::new(3.0, 4.0);
     // Before a tag was seen its height has no part in it.
-    assert_near(deviation_m(&drone, far, 2.0), 0.015_f64.hypot(0.06 * 5.0));
+    assert_near(uncertainty_m(&drone, far, 2.0), 0.015_f64.hypot(0.06 * 5.0));
     let expected_m = |way_m: f64| 0.015_f64.hypot(0.06 * way_m).hypot(0.012 * 2.0);
     // From the place of the odometry at the last picture.
     (0..40).for_each(|_| drone.fly());
     let from_m = drone.odometry_m;
-    assert_near(deviation_m(&drone, from_m + far, 2.0), expected_m(5.0));
-    assert_near(deviation_m(&drone, from_m, 2.0), expected_m(0.0));
+    assert_near(uncertainty_m(&drone, from_m + far, 2.0), expected_m(5.0));
+    assert_near(uncertainty_m(&drone, from_m, 2.0), expected_m(0.0));
     assert_eq!(
         drone.tags.status(drone.now_s + 3.0).unwrap().seen_ago,
         Some(Duration::from_secs(3))

@@ -34,7 +34,7 @@ fn a_tag_that_is_surveyed_in_flight_corrects_the_drone_like_one_that_was_before(
     }
     assert_eq!(later.estimator.survey(&[tag]), Ok(()));
     assert!(known(&later)[0].surveyed && known(&later)[0].seen_ago.is_none());
-    let off_m = (before.deviation_m(), later.deviation_m());
+    let off_m = (before.uncertainty_m(), later.uncertainty_m());
     assert!((off_m.0 - off_m.1).abs() < 0.02, "the start is as uncertain: {off_m:?}");
     // The drone believes to be at 1.5 m, but stood 0.1 m aside.
     for bench in [&mut before, &mut later] {
@@ -44,7 +44,7 @@ fn a_tag_that_is_surveyed_in_flight_corrects_the_drone_like_one_that_was_before(
         assert_eq!(known(bench).len(), 1);
         let expected = tag.place_m - bench.tag_m;
         assert!((bench.place_m() - expected).norm() < 0.1, "{}", bench.place_m());
-        assert!(bench.deviation_m() < 0.15);
+        assert!(bench.uncertainty_m() < 0.15);
     }
 }
 
@@ -74,14 +74,14 @@ fn a_surveyed_tag_keeps_its_place_and_its_world() {
     let found = known(&bench)[0];
     let tag = surveyed(found.place_m.x, found.place_m.y, None);
     bench.estimator.survey(&[tag]).unwrap();
-    let before = (known(&bench), bench.place_m(), bench.deviation_m());
+    let before = (known(&bench), bench.place_m(), bench.uncertainty_m());
     let again = surveyed(tag.place_m.x + 0.7, tag.place_m.y, Some(10.0));
     bench.estimator.survey(&[again]).unwrap();
-    assert_eq!((known(&bench), bench.place_m(), bench.deviation_m()), before);
+    assert_eq!((known(&bench), bench.place_m(), bench.uncertainty_m()), before);
     // Further away it is another one.
     bench.estimator.survey(&[surveyed(tag.place_m.x + 0.8, tag.place_m.y, None)]).unwrap();
     assert_eq!(known(&bench).iter().map(|tag| tag.id).collect::<Vec<_>>(), [1, 2]);
-    assert!((bench.deviation_m() - before.2).abs() < 1e-9, "the world was surveyed before");
+    assert!((bench.uncertainty_m() - before.2).abs() < 1e-9, "the world was surveyed before");
 }
 
 #[test]
@@ -89,9 +89,9 @@ fn tags_for_which_there_is_no_room_change_nothing() {
     let mut bench = above_a_found_tag();
     let row: Vec<SurveyedTag> =
         (0..8).map(|i| surveyed(2.0 * f64::from(i) - 9.0, 4.0, None)).collect();
-    let before = (known(&bench), bench.deviation_m());
+    let before = (known(&bench), bench.uncertainty_m());
     assert_eq!(bench.estimator.survey(&row), Err(NoRoom));
-    assert_eq!((known(&bench), bench.deviation_m()), before);
+    assert_eq!((known(&bench), bench.uncertainty_m()), before);
     // With the found one among them there are eight.
     let found = known(&bench)[0].place_m;
     let mut eight = row[..7].to_vec();

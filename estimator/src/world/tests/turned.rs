@@ -80,13 +80,13 @@ fn a_compass_that_drifts_is_no_turning_tag() {
 
 #[test]
 fn residuals_of_a_direction_that_do_not_average_out_show_that_a_tag_turns() {
-    let watched = |residuals: &[(f64, u32)], deviation_deg: f64| {
+    let watched = |residuals: &[(f64, u32)], uncertainty_deg: f64| {
         let place_m = Vector2::zeros();
         let mut surveyed = [None; MAX_TAGS];
         surveyed[0] = Some(SurveyedTag { place_m, heading_deg: Some(0.0) });
         let mut map = Map::new(&surveyed, &mut Filter::new(true, &Start::default()));
         let sights = residuals.iter().flat_map(|(off_deg, sights)| (0..*sights).map(|_| *off_deg));
-        sights.fold(false, |_, off_deg| map.watch_direction(0, off_deg, deviation_deg))
+        sights.fold(false, |_, off_deg| map.watch_direction(0, off_deg, uncertainty_deg))
     };
     // A mean of twenty, of ten degrees at most.
     assert!(!watched(&[(9.9, 500)], 0.0) && watched(&[(10.1, 500)], 0.0));

@@ -40,7 +40,7 @@ fn a_surveyed_tag_is_known_to_a_tape_measure_and_its_direction_if_it_was_measure
             filter.survey_tag(tag, place_m, heading_rad);
             assert_eq!(filter.used, used);
             assert_eq!(filter.tag_place_m(tag), place_m);
-            assert_near(filter.tag_deviation_m(tag), 0.02);
+            assert_near(filter.tag_uncertainty_m(tag), 0.02);
             if let Some(heading_rad) = heading_rad {
                 assert_near(filter.tag_heading_deg(tag), heading_rad.to_degrees());
             }
