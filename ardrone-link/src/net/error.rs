@@ -36,7 +36,9 @@ pub enum StartError {
 #[non_exhaustive]
 pub enum ClientError {
     /// The client's task panicked, or its runtime has ended.
-    #[error("the client's task has died; it has ordered the landing, unless the runtime ended first")]
+    #[error(
+        "the client's task has died; it has ordered the landing, unless the runtime ended first"
+    )]
     Task,
     /// The client was closed or dropped.
     #[error("the client is closed")]
