@@ -26,6 +26,7 @@ fn header(text: &str) -> Header {
         start: Duration::from_secs(1_700_000_000),
         plan_name: "plan.txt".to_owned(),
         plan: text.to_owned(),
+        mission_agent: String::new(),
         settings: Settings::sample().unwrap(),
         z_origin: ZOrigin::Hover,
         drone: "simulated".to_owned(),
