@@ -167,7 +167,7 @@ fn a_drone_that_vanishes_is_reported_without_a_plan_too() {
     for leave in ["quit\n", ""] {
         let mut mock = MockProcess::start();
         let (mut child, log) = start(mock.pilot_without_plan().stdin(Stdio::piped()));
-        wait_for(log.path(), "standby");
+        wait_for(log.path(), "ready to take off");
         let mut orders = child.stdin.take().unwrap();
         writeln!(orders, "append takeoff\nappend hold 50\nstart").unwrap();
         wait_for(log.path(), "step 2");

@@ -359,8 +359,8 @@ fn a_report_answers_why() {
     assert!(
         page.contains("the last order was carried out") && page.contains("plan flown to its end")
     );
-    let steps = flight.report.steps_done;
-    assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
+    let (done, all) = (flight.report.steps_done, flight.report.steps);
+    assert!(page.contains(&format!("<b>{done} of {all}</b>steps done")), "{done} of {all}");
     log.entries.clear();
     assert!(report::html(&log, &[]).is_err());
 }

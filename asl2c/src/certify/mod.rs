@@ -5,6 +5,7 @@ mod files;
 mod flow;
 mod gather;
 mod misra;
+mod needed;
 mod page;
 mod reach;
 mod trust;
@@ -16,5 +17,5 @@ pub use self::evidence::{
 pub(crate) use self::files::check_folder;
 pub use self::gather::{Certified, CertifyError, Limits, certify};
 pub use self::misra::Deviation;
+pub(crate) use self::needed::find_tools;
 pub use self::reach::{Reach, Reached};
-pub(crate) use self::trust::find_tools;
