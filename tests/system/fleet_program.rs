@@ -393,6 +393,19 @@ fn a_fleet_is_checked_as_it_would_fly() {
 }
 
 #[test]
+fn tags_that_nobody_may_see_are_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("f.toml");
+    std::fs::write(folder.path().join("tags.toml"), "[tags]\nsurveyed = [[0, 1], [11, 0]]\n")
+        .unwrap();
+    let tagged = "[fleet]\nconfig = \"tags.toml\"\n[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\ntags = true\n";
+    std::fs::write(&path, tagged).unwrap();
+    let (status, said) = check(&path);
+    assert!(status == Some(0) && said.contains("f.toml:2:10"), "{said}");
+    assert!(said.contains("warning: the given tag 11,0 is 11.00 m from the start"), "{said}");
+}
+
+#[test]
 fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.toml");
@@ -461,13 +474,6 @@ fn what_is_wrong_in_a_fleet_is_shown_with_its_place() {
     let (status, error) = check(&path);
     let said = "vehicle.name is one vehicle's: the fleet has it for each; room.start is one";
     assert!(status == Some(20) && error.contains(said), "{error}");
-    std::fs::write(folder.path().join("tags.toml"), "[tags]\nsurveyed = [[0, 1], [11, 0]]\n")
-        .unwrap();
-    let tagged = "[fleet]\nconfig = \"tags.toml\"\n[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\ntags = true\n";
-    std::fs::write(&path, tagged).unwrap();
-    let (status, said) = check(&path);
-    assert!(status == Some(0) && said.contains("f.toml:2:10"), "{said}");
-    assert!(said.contains("warning: the given tag 11,0 is 11.00 m from the start"), "{said}");
     let two = |name: &str, x_m: f64| {
         format!(
             "[[vehicle]]\nname = \"a\"\nstart = [0, 0, 0]\n[[vehicle]]\nname = \"{name}\"\nstart = [{x_m}, 0, 0]\n"

@@ -149,7 +149,7 @@ impl Fleet {
         let mut settings = settings_of_all(&written, config.as_deref(), &invalid)?;
         if let Err(error) = settings.share(fence, written.fleet.separation_m) {
             let SettingsError::Values { reasons, .. } = error else { return Err(error.into()) };
-            let reasons = reasons.into_iter().map(|reason| out_of_range(&text, reason)).collect();
+            let reasons = reasons.iter().map(|reason| out_of_range(&text, reason)).collect();
             return Err(FleetError::Invalid(invalid(reasons)));
         }
         let config_of_all = settings.pilot_config(z_origin);
@@ -197,7 +197,7 @@ fn cannot_read(what: &str, path: &Path, error: &io::Error, place: Span) -> Diagn
 }
 
 /// A value of the fleet's file that no flight can have, for this reason, which begins with its name in the settings.
-fn out_of_range(text: &str, reason: String) -> Diagnostic {
+fn out_of_range(text: &str, reason: &str) -> Diagnostic {
     let in_file = reason.replace("room.separation_m", "fleet.separation_m");
     let name = in_file.split(' ').next().unwrap_or_default();
     let (section, value) = name.split_once('.').unwrap_or((name, ""));

@@ -70,7 +70,7 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
             Ok(Some(line)) => {
                 match line.version {
                     Some(_) if is_begun => diagnostics.push(late_version(&line)),
-                    Some(version) if version != f64::from(VERSION) => {
+                    Some(version) if version.total_cmp(&f64::from(VERSION)).is_ne() => {
                         // Nothing of a text of another version can be relied on.
                         return (Vec::new(), vec![other_version(version, &line)]);
                     }
