@@ -48,7 +48,7 @@ impl Programs {
             return Ok(Self { folder: own.parent().map(Path::to_owned).unwrap_or_default() });
         }
         let target = case::root().join("target/figures");
-        let mut build = Command::new(env!("CARGO"));
+        let mut build = Command::new("cargo");
         build.args(["build", "--quiet", "--locked", "--workspace", "--bins"]);
         build.env("CARGO_INCREMENTAL", "0").arg("--target-dir").arg(&target);
         output(build.current_dir(case::root()))?;
@@ -128,7 +128,7 @@ fn proofs(log: Option<&Path>, figures: &mut Figures) -> Result<(), Box<dyn std::
 }
 
 fn code(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
-    let mut tree = Command::new(env!("CARGO"));
+    let mut tree = Command::new("cargo");
     tree.args(["tree", "--locked", "--package", "ardrone-pilot", "--edges", "normal,build"]);
     let tree =
         output(tree.args(["--prefix", "none", "--format", "{p}"]).current_dir(case::root()))?;
@@ -161,7 +161,7 @@ fn code(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
 fn build(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
     let folder = tempfile::tempdir()?;
     let reference_s = reference(folder.path())?;
-    let mut build = Command::new(env!("CARGO"));
+    let mut build = Command::new("cargo");
     build.args([
         "build",
         "--release",
@@ -222,7 +222,7 @@ fn tests(log: Option<&Path>, figures: &mut Figures) -> Result<(), Box<dyn std::e
     let text = if let Some(log) = log {
         read(log)?
     } else {
-        let mut test = Command::new(env!("CARGO"));
+        let mut test = Command::new("cargo");
         output(test.args(["test", "--workspace", "--locked"]).current_dir(case::root()))?
     };
     // "test result: ok. 12 passed; 0 failed; ..."
@@ -250,7 +250,9 @@ pub(super) fn output(command: &mut Command) -> Result<String, FiguresError> {
     let output = output.map_err(|source| FiguresError::Run { program: program.clone(), source })?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        let said = said.trim().lines().last().unwrap_or_default().to_owned();
+        // Where others follow from it, the first one says what is wrong.
+        let first = said.lines().find(|line| line.starts_with("error"));
+        let said = first.or_else(|| said.lines().last()).unwrap_or_default().to_owned();
         return Err(FiguresError::Failed { program, said });
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
