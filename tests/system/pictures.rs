@@ -26,8 +26,8 @@ fn the_picture_of_the_fleet() {
 
 /// They are drawn by `xtask`, of what these pages are about.
 #[test]
-#[ignore = "writes docs/plots/figures.svg, docs/plots/flight.svg and docs/safety-case.svg"]
-fn the_pictures_of_the_control_law_and_of_the_safety_case() {
+#[ignore = "writes docs/plots/figures.svg, docs/plots/flight.svg, docs/safety-case.svg and docs/figures.svg"]
+fn the_pictures_of_the_control_law_of_the_safety_case_and_of_the_figures() {
     // A flight beside it keeps its time.
     let xtask = |arguments: &[&str]| {
         let xtask =
@@ -36,13 +36,17 @@ fn the_pictures_of_the_control_law_and_of_the_safety_case() {
         let status = command.current_dir("..").args(xtask).arg("--").args(arguments).status();
         assert!(status.unwrap().success(), "cargo xtask {arguments:?}");
     };
-    for drawn in
-        ["../docs/plots/figures.svg", "../docs/plots/flight.svg", "../docs/safety-case.svg"]
-    {
+    for drawn in [
+        "../docs/plots/figures.svg",
+        "../docs/plots/flight.svg",
+        "../docs/safety-case.svg",
+        "../docs/figures.svg",
+    ] {
         std::fs::remove_file(drawn).unwrap();
     }
     xtask(&["fly", "--plots", "docs/plots"]);
     xtask(&["case"]);
+    xtask(&["figures", "--draw"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::measure::{Programs, output};
+use super::programs::{Programs, output};
 use super::record::Figures;
 
 /// Flies the simulated drone, as the README's first command does.

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::process::Command;
 
-use super::measure::{Programs, SHIPPED, output};
+use super::programs::{Programs, SHIPPED, output};
 use super::record::Figures;
 use crate::job::{Job, fly};
 

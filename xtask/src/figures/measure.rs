@@ -1,17 +1,16 @@
 //! Measures each part.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::Command;
 use std::time::Instant;
 
+use super::programs::{Programs, SHIPPED, output};
 use super::record::Figures;
 use super::{Arguments, FiguresError, Part, cadence, counted};
 use crate::cases::CASES;
 use crate::{case, fly, tags, target, verify};
 
-/// The agent whose figures are watched.
-pub(super) const SHIPPED: &str = "autopilot/agent/autopilot.conf";
 /// Seeds of each flight.
 const SEEDS: u64 = 3;
 
@@ -31,33 +30,6 @@ pub(super) fn measure(
         Part::Code => code(figures),
         Part::Build => build(figures),
         Part::Tests => tests(arguments.tests.as_deref(), figures),
-    }
-}
-
-/// The programs whose instructions and cadence are measured, always built in the same way: another profile, and what cargo does
-/// for the next build, make other instructions.
-pub(super) struct Programs {
-    folder: PathBuf,
-}
-
-impl Programs {
-    /// Builds them, unless that has been done where this program is (`PROGRAMS_ARE_BUILT`).
-    fn build() -> Result<Self, Box<dyn std::error::Error>> {
-        if std::env::var_os("PROGRAMS_ARE_BUILT").is_some() {
-            let own = std::env::current_exe()?;
-            return Ok(Self { folder: own.parent().map(Path::to_owned).unwrap_or_default() });
-        }
-        let target = case::root().join("target/figures");
-        let mut build = Command::new("cargo");
-        build.args(["build", "--quiet", "--locked", "--workspace", "--bins"]);
-        build.env("CARGO_INCREMENTAL", "0").arg("--target-dir").arg(&target);
-        output(build.current_dir(case::root()))?;
-        Ok(Self { folder: target.join("debug") })
-    }
-
-    /// The path of a program.
-    pub(super) fn named(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
     }
 }
 
@@ -241,19 +213,4 @@ fn read(path: &Path) -> Result<String, FiguresError> {
 fn now() -> Instant {
     #[allow(clippy::disallowed_methods, reason = "builds are timed")]
     Instant::now()
-}
-
-/// What a program prints.
-pub(super) fn output(command: &mut Command) -> Result<String, FiguresError> {
-    let program = command.get_program().to_string_lossy().into_owned();
-    let output = command.stdin(Stdio::null()).output();
-    let output = output.map_err(|source| FiguresError::Run { program: program.clone(), source })?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        // Where others follow from it, the first one says what is wrong.
-        let first = said.lines().find(|line| line.starts_with("error"));
-        let said = first.or_else(|| said.lines().last()).unwrap_or_default().to_owned();
-        return Err(FiguresError::Failed { program, said });
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }

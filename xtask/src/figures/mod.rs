@@ -4,6 +4,7 @@ mod cadence;
 mod counted;
 mod measure;
 mod page;
+mod programs;
 mod record;
 
 use std::fmt::Write as _;
@@ -31,6 +32,9 @@ pub(crate) struct Arguments {
     /// Write what was measured to this file, as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Measure nothing, and write page and drawing anew from the records
+    #[arg(long, conflicts_with_all = ["record", "only", "tests", "proofs", "json"])]
+    draw: bool,
     /// Do the work whose instructions are counted; run under valgrind
     #[arg(long, hide = true)]
     work: bool,
@@ -143,7 +147,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
         counted::work()?;
         return Ok((String::new(), true));
     }
-    let root = crate::case::root();
+    let path = crate::case::root().join(HISTORY);
+    if arguments.draw {
+        draw(&History::read(&path)?)?;
+        return Ok((String::new(), true));
+    }
     let parts: &[Part] =
         if arguments.only.is_empty() { Part::value_variants() } else { &arguments.only };
     let mut figures = Figures::default();
@@ -154,7 +162,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
     if let Some(path) = &arguments.json {
         write(path, &record.json())?;
     }
-    let path = root.join(HISTORY);
     let mut history = History::read(&path)?;
     let (mut text, lost) = match history.last() {
         Some(last) => record.against(last, parts),
@@ -166,11 +173,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
         }
         history.push(record);
         write(&path, &history.json())?;
-        write(&root.join(PAGE), &page::page(&history))?;
-        write(&root.join(DRAWING), &page::drawing(&history))?;
+        draw(&history)?;
         _ = writeln!(text, "recorded in {HISTORY}");
     }
     Ok((text, arguments.record || !lost))
+}
+
+/// Writes page and drawing.
+fn draw(history: &History) -> Result<(), FiguresError> {
+    let root = crate::case::root();
+    write(&root.join(PAGE), &page::page(history))?;
+    write(&root.join(DRAWING), &page::drawing(history))
 }
 
 fn write(path: &Path, text: &str) -> Result<(), FiguresError> {
