@@ -91,7 +91,7 @@ const fn kind(part: Part, name: &'static str, unit: &'static str, loss: Loss) ->
     Kind { part, name, unit, loss, share: 0.02, noise: 0.0 }
 }
 
-const METRES: f64 = 0.003;
+const METRES: f64 = 0.001;
 
 #[rustfmt::skip]
 static KINDS: &[Kind] = &[
@@ -163,14 +163,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
         write(path, &record.json())?;
     }
     let mut history = History::read(&path)?;
-    let (mut text, lost) = match history.last() {
-        Some(last) => record.against(last, parts),
-        None => (String::new(), false),
-    };
+    // Without a record everything is one that nobody knows of.
+    let last = history.last().cloned().unwrap_or_else(|| Record::new(Figures::default()));
+    let (mut text, lost) = record.against(&last, parts);
     if arguments.record {
-        if let Some(last) = history.last() {
-            record.keep_of(last, parts);
-        }
+        record.keep_of(&last, parts);
         history.push(record);
         write(&path, &history.json())?;
         draw(&history)?;

@@ -206,10 +206,13 @@ land
     return made;
   }
 
+  // The version of the language, which stays before all commands.
+  const isVersion = (line) => words(line)[0]?.word === "version";
+
   // Exchanges a command with the one before or behind it.
   function move(index, by) {
     const all = lines();
-    const commands = all.map((line, at) => ({ at, is: words(line).length > 0 })).filter(({ is }) => is).map(({ at }) => at);
+    const commands = all.map((line, at) => ({ at, is: words(line).length > 0 && !isVersion(line) })).filter(({ is }) => is).map(({ at }) => at);
     const other = commands[commands.indexOf(index) + by];
     if (other === undefined) return;
     [all[index], all[other]] = [all[other], all[index]];
@@ -225,7 +228,7 @@ land
     const lands = all.length && ends(words(all.at(-1))[0]?.word) && !ends(word) && word !== "takeoff";
     // Nothing is flown to from the ground.
     const starts = all.some((line) => ["takeoff", "autoTakeover", "autoInit"].includes(words(line)[0]?.word));
-    if (declared(word)?.isTarget && !starts) all.unshift("takeoff");
+    if (declared(word)?.isTarget && !starts) all.splice(all.findIndex(isVersion) + 1, 0, "takeoff");
     all.splice(all.length - (lands ? 1 : 0), 0, command);
     write(all.join("\n") + "\n");
   }
