@@ -255,7 +255,8 @@ mod tests {
         let usual = wanted(&["--mavlink"]).unwrap();
         let line = "MAVLink: speaking to udp:127.0.0.1:14550, udp:127.0.0.1:14540";
         assert_eq!((usual.to_string().as_str(), usual.warning), (line, None));
-        assert_eq!(usual.config, Config { max_speed_m_s: 2.2, ..Config::default() });
+        let limits = VehicleConfig::default().limits;
+        assert_eq!(usual.config, Config { limits, max_speed_m_s: 2.2, ..Config::default() });
         let two = wanted(&["--mavlink", "udp:127.0.0.1:1, udp:localhost:2,udp:127.0.0.1:1"]);
         let two = two.unwrap().remotes;
         assert_eq!(two, ["127.0.0.1:1", "127.0.0.1:2"].map(|text| text.parse().unwrap()));
