@@ -75,7 +75,6 @@ impl Neighbour {
         let numbers = numbers.chain(self.claim.iter().flat_map(|claim| &claim.to_m));
         numbers.chain([&self.uncertainty_m, &self.separation_m]).all(|number| number.is_finite())
             && self.uncertainty_m >= 0.0
-            && self.separation_m >= 0.0
     }
 
     /// Where it is at a time if it went on for a while, and how far from there it can have got.

@@ -167,7 +167,6 @@ fn nonsense_is_not_heard_nor_more_than_fit() {
         Neighbour { uncertainty_m: f64::INFINITY, ..neighbour(1.0, 0.0) },
         Neighbour { separation_m: f64::NAN, ..neighbour(1.0, 0.0) },
         Neighbour { uncertainty_m: -0.1, ..neighbour(1.0, 0.0) },
-        Neighbour { separation_m: -0.1, ..neighbour(1.0, 0.0) },
     ] {
         assert_eq!(heard(&[nonsense]).1, [Err(NotHeard::Nonsense)], "{nonsense:?}");
     }
