@@ -16,7 +16,7 @@ pub(super) fn measure(
     let (mut late_ms, mut skipped) = (Vec::new(), 0.0);
     for line in said.lines() {
         let message: Value = serde_json::from_str(line)?;
-        // The latest one since the status before.
+        // The worst one since the status before.
         late_ms.extend(message["tick_late_s"].as_f64().map(|late_s| late_s * 1e3));
         skipped = message["ticks_skipped"].as_f64().unwrap_or(skipped);
     }
