@@ -12,6 +12,7 @@ use tungstenite::{Message, WebSocket};
 
 use crate::chromium::{Chromium, Tab};
 use crate::processes::{plan_file, program, signal, with_page};
+use crate::station::response;
 
 /// A flight with a page.
 struct Flown {
@@ -56,13 +57,7 @@ impl Flown {
 
     /// The server's complete response to a request.
     fn request(&self, head: &str) -> String {
-        let mut stream = TcpStream::connect(&self.host).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
-        stream.write_all(head.as_bytes()).unwrap();
-        let mut answer = Vec::new();
-        // The connection may be reset.
-        _ = stream.read_to_end(&mut answer);
-        String::from_utf8_lossy(&answer).into_owned()
+        response(&self.host, head.as_bytes())
     }
 
     /// Opens a WebSocket like the page's.

@@ -4,6 +4,7 @@ use std::io::{BufRead as _, BufReader, ErrorKind};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::{Condvar, Mutex};
 use std::time::{Duration, Instant};
 
 use base64::Engine as _;
@@ -13,6 +14,29 @@ use tungstenite::{Message, WebSocket};
 
 /// Timeout of all operations of a page, even on a busy machine.
 const PATIENCE: Duration = Duration::from_mins(2);
+
+/// How many browsers may still be started. Each takes most of a core: with more of them pages stand still for
+/// seconds, while what they show flies on.
+static PLACES: Mutex<usize> = Mutex::new(2);
+static PLACE_IS_FREE: Condvar = Condvar::new();
+
+/// One of [`PLACES`], given back when dropped.
+struct Place;
+
+impl Place {
+    fn take() -> Self {
+        let places = PLACES.lock().unwrap();
+        *PLACE_IS_FREE.wait_while(places, |places| *places == 0).unwrap() -= 1;
+        Self
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        *PLACES.lock().unwrap() += 1;
+        PLACE_IS_FREE.notify_one();
+    }
+}
 
 /// A browser process, killed when dropped.
 pub(crate) struct Chromium {
@@ -24,6 +48,7 @@ pub(crate) struct Chromium {
     /// A frame with a process of its own that it is attached to, by its target.
     frame: Option<(Value, Tab)>,
     _profile: tempfile::TempDir,
+    _place: Place,
 }
 
 /// A tab.
@@ -38,6 +63,7 @@ impl Chromium {
     /// In CI, if there is no browser.
     #[allow(clippy::print_stdout, reason = "what is left out is said")]
     pub(crate) fn start() -> Option<Self> {
+        let place = Place::take();
         let profile = tempfile::tempdir().unwrap();
         let child = Command::new("chromium")
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run"])
@@ -63,7 +89,15 @@ impl Chromium {
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
-        Some(Self { child, socket, calls: 0, held: None, frame: None, _profile: profile })
+        Some(Self {
+            child,
+            socket,
+            calls: 0,
+            held: None,
+            frame: None,
+            _profile: profile,
+            _place: place,
+        })
     }
 
     fn call(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {

@@ -1,7 +1,7 @@
 //! The page as a ground station, end to end: a real Chromium, the program without a plan, the mock drone.
 
-use std::io::{Read as _, Write as _};
-use std::net::{IpAddr, TcpStream, UdpSocket};
+use std::io::Read as _;
+use std::net::{IpAddr, UdpSocket};
 use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::chromium::{Chromium, Tab};
 use crate::processes::{plan_file, program, signal, with_page};
-use crate::station::Station;
+use crate::station::{Station, response};
 
 /// The program at rest, with plans of its own and the page at this address.
 fn program_at(address: &str, arguments: &[&str]) -> Station {
@@ -27,18 +27,11 @@ impl Station {
     /// The server's complete response to a request.
     fn request(&self, method: &str, path: &str, headers: &str, body: &str) -> String {
         let host = self.host();
-        let mut stream = TcpStream::connect(host).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
         let length = body.len();
-        write!(
-            stream,
-            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n{headers}\r\n{body}"
-        )
-        .unwrap();
-        let mut answer = Vec::new();
-        // The connection may be reset.
-        _ = stream.read_to_end(&mut answer);
-        String::from_utf8_lossy(&answer).into_owned()
+        let head = format!(
+            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n{headers}"
+        );
+        response(host, format!("{head}\r\n{body}").as_bytes())
     }
 
     /// Lands, and waits for the end.
@@ -141,7 +134,8 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.click(&tab, "#load", [0.0; 2]);
     chromium.wait(&tab, "view === 'fly' && !document.querySelector('#start').disabled");
     chromium.click(&tab, "#start", [0.0; 2]);
-    chromium.wait(&tab, "status.step === 2 && status.distance_m < 0.7");
+    // Anywhere on the way to both targets: a browser on a busy machine sees no single moment.
+    chromium.wait(&tab, "status.step === 2 || status.step === 3");
     // By hand, away from the way, and on with the mission.
     chromium.click(&tab, "#byhand", [0.0; 2]);
     chromium.key(&tab, "keyDown", "KeyS");
@@ -201,14 +195,16 @@ fn the_flights_of_a_run_are_told_apart() {
     let station = program_at("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
-    for (name, plan) in
-        [("short.txt", "takeoff\\nland\\n"), ("long.txt", "takeoff\\ngoto 0 1 0 0\\nland\\n")]
+    for (flown, name, plan) in
+        [(1, "short.txt", "takeoff\\nland\\n"), (2, "long.txt", "takeoff\\ngoto 0 1 0 0\\nland\\n")]
     {
         let load = format!("order({{ order: 'load', name: '{name}', plan: '{plan}' }})");
         chromium.evaluate(&tab, &load);
         chromium.wait(&tab, &format!("flight.plan === '{name}'"));
         chromium.evaluate(&tab, "order({ order: 'start' })");
-        chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.3");
+        // A browser on a busy machine may miss a short flight, and has what happened in it nevertheless.
+        let ends = "document.querySelector('#events').textContent.split('plan flown to its end')";
+        chromium.wait(&tab, &format!("{ends}.length === {flown} + 1"));
         chromium.wait(&tab, "status.phase === 'standby' && readiness.ready");
     }
     let summary = "fetch('flights/flights.mcap/summary').then((response) => response.json())";
@@ -238,7 +234,8 @@ fn the_flights_of_a_run_are_told_apart() {
         let page = station.request("GET", &format!("/flights/flights.mcap/{path}"), "", "");
         let heading = format!("<h1>{plan}</h1>");
         let which = format!("<b>flight {number} of 2</b>");
-        assert!([&heading, &which, link].iter().all(|part| page.contains(*part)), "{path}");
+        let has_all = [&heading, &which, link].iter().all(|part| page.contains(*part));
+        assert!(has_all, "{path}, {} bytes: {page:.2000}", page.len());
     }
     let missing = station.request("GET", "/flights/flights.mcap/report/2", "", "");
     assert!(missing.contains(" 404 ") && missing.contains("has no flight 3"), "{missing}");

@@ -1,6 +1,9 @@
 //! The program with its page, in a folder of its own.
 
+use std::io::{ErrorKind, Read as _, Write as _};
+use std::net::TcpStream;
 use std::process::{Child, Stdio};
+use std::time::Duration;
 
 use crate::processes::{program, with_page};
 
@@ -38,4 +41,17 @@ impl Drop for Station {
         _ = self.child.kill();
         _ = self.child.wait();
     }
+}
+
+/// A server's complete response to what is sent.
+pub(crate) fn response(host: &str, request: &[u8]) -> String {
+    let mut stream = TcpStream::connect(host).unwrap();
+    stream.set_read_timeout(Some(Duration::from_mins(2))).unwrap();
+    stream.write_all(request).unwrap();
+    let mut response = Vec::new();
+    // Whose request is refused half read may find the connection reset.
+    if let Err(error) = stream.read_to_end(&mut response) {
+        assert_eq!(error.kind(), ErrorKind::ConnectionReset, "{}", request.escape_ascii());
+    }
+    String::from_utf8_lossy(&response).into_owned()
 }
