@@ -9,6 +9,7 @@ mod compare;
 mod cross_checks;
 mod edit;
 mod figures;
+mod files;
 mod fleets;
 mod fly;
 mod healthy;

@@ -5,9 +5,10 @@ mod page;
 mod sources;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use self::page::{Kind, Mistake, Nodes};
+use crate::files::{FileError, cannot, read, root, write};
 
 /// What to do.
 #[derive(Debug, clap::Args)]
@@ -17,36 +18,16 @@ pub(crate) struct Arguments {
     ran: Option<PathBuf>,
 }
 
-/// A file could not be read or written.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {source}")]
-pub(crate) struct CaseError {
-    path: PathBuf,
-    source: std::io::Error,
-}
-
 const PAGE: &str = "docs/safety-case.md";
 const DRAWING: &str = "docs/safety-case.svg";
 
-pub(crate) fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn at<T>(path: &Path, result: std::io::Result<T>) -> Result<T, CaseError> {
-    result.map_err(|source| CaseError { path: path.to_owned(), source })
-}
-
-fn read(path: &Path) -> Result<String, CaseError> {
-    at(path, std::fs::read_to_string(path))
-}
-
 /// Checks the case, and draws it. Returns what to print, and whether nothing is wrong.
-pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), CaseError> {
+pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), FileError> {
     let log = arguments.ran.as_deref().map(read).transpose()?;
     let (nodes, mut mistakes) = checked(&read(&root().join(PAGE))?, log.as_deref())?;
     if mistakes.is_empty() && log.is_none() {
         let drawing = root().join(DRAWING);
-        at(&drawing, std::fs::write(&drawing, drawing::draw(&nodes)))?;
+        write(&drawing, &drawing::draw(&nodes))?;
     }
     mistakes.sort();
     let mut text = String::new();
@@ -64,8 +45,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), CaseError> {
 }
 
 /// Reads the page, and tells what is wrong with it, by the repository and by the output of the tests, too.
-fn checked(page: &str, log: Option<&str>) -> Result<(Nodes, Vec<Mistake>), CaseError> {
-    let packages = at(&root(), sources::packages(&root()))?;
+fn checked(page: &str, log: Option<&str>) -> Result<(Nodes, Vec<Mistake>), FileError> {
+    let packages = sources::packages(&root()).map_err(cannot("read", &root()))?;
     let results = log.map(|log| sources::results(log, &packages));
     let verification = read(&root().join("docs/verification.md"))?;
     // Behind that come mutants, and properties of another agent with the same names.

@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::programs::{Programs, output};
 use super::record::Figures;
+use crate::files::root;
 
 /// Flies the simulated drone, as the README's first command does.
 pub(super) fn measure(
@@ -12,7 +13,7 @@ pub(super) fn measure(
 ) -> Result<(), Box<dyn std::error::Error>> {
     let mut flight = std::process::Command::new(programs.named("ardrone-pilot"));
     flight.args(["--plan", "plans/square.txt", "--mock", "--json", "--no-log"]);
-    let said = output(flight.current_dir(crate::case::root()))?;
+    let said = output(flight.current_dir(root()))?;
     let (mut late_ms, mut skipped) = (Vec::new(), 0.0);
     for line in said.lines() {
         let message: Value = serde_json::from_str(line)?;

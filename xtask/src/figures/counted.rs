@@ -3,8 +3,9 @@
 use std::hint::black_box;
 use std::process::Command;
 
-use super::programs::{Programs, SHIPPED, output};
+use super::programs::{Programs, output};
 use super::record::Figures;
+use crate::files::{SHIPPED_AGENT, root};
 use crate::job::{Job, fly};
 
 /// What is counted: a function with all that it calls, for each call. The agent's C, which counts its own work where
@@ -24,7 +25,7 @@ const COUNTED: [(&str, &str); 8] = [
 /// A flight that is always the same, and one translation of the shipped agent.
 pub(super) fn work() -> Result<(), Box<dyn std::error::Error>> {
     fly(Job { case: 0, plan: 0, seed: 1 }, |_| ())?;
-    let agent = asl2c::Agent::read(&crate::case::root().join(SHIPPED))?;
+    let agent = asl2c::Agent::read(&root().join(SHIPPED_AGENT))?;
     black_box(translator::translate(&agent.configuration, &agent.text)?);
     Ok(())
 }

@@ -5,11 +5,12 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use super::programs::{Programs, SHIPPED, output};
+use super::programs::{Programs, output};
 use super::record::Figures;
-use super::{Arguments, FiguresError, Part, cadence, counted};
+use super::{Arguments, Part, cadence, counted};
 use crate::cases::CASES;
-use crate::{case, fly, tags, target, verify};
+use crate::files::{SHIPPED_AGENT, read, root};
+use crate::{fly, tags, target, verify};
 
 /// Seeds of each flight.
 const SEEDS: u64 = 3;
@@ -72,7 +73,7 @@ fn over_tags(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn agent(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
-    let agent = asl2c::Agent::read(&case::root().join(SHIPPED))?;
+    let agent = asl2c::Agent::read(&root().join(SHIPPED_AGENT))?;
     let translation = translator::translate(&agent.configuration, &agent.text)?;
     let lines: usize = translation.files.iter().map(|file| file.text.lines().count()).sum();
     figures.add("lines of C", "autopilot", lines as f64);
@@ -106,16 +107,15 @@ fn proofs(log: Option<&Path>, figures: &mut Figures) -> Result<(), Box<dyn std::
 fn code(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
     let mut tree = Command::new("cargo");
     tree.args(["tree", "--locked", "--package", "ardrone-pilot", "--edges", "normal,build"]);
-    let tree =
-        output(tree.args(["--prefix", "none", "--format", "{p}"]).current_dir(case::root()))?;
+    let tree = output(tree.args(["--prefix", "none", "--format", "{p}"]).current_dir(root()))?;
     let crates: BTreeSet<&str> = tree.lines().map(|line| line.trim_end_matches(" (*)")).collect();
     figures.add("crates of ardrone-pilot", "all", crates.len() as f64);
 
     let mut list = Command::new("git");
-    let files = output(list.args(["ls-files", "-z", "*.rs", "*.md"]).current_dir(case::root()))?;
+    let files = output(list.args(["ls-files", "-z", "*.rs", "*.md"]).current_dir(root()))?;
     let (mut rust, mut tests, mut pages) = (0, 0, 0);
     for file in files.split_terminator('\0') {
-        let lines = read(&case::root().join(file))?.lines().count();
+        let lines = read(&root().join(file))?.lines().count();
         let is_test = file.starts_with("tests/") || file.contains("/tests");
         *(if Path::new(file).extension().is_some_and(|extension| extension == "md") {
             &mut pages
@@ -147,7 +147,7 @@ fn build(figures: &mut Figures) -> Result<(), Box<dyn std::error::Error>> {
         "--package",
         "ardrone-pilot",
     ]);
-    build.arg("--target-dir").arg(folder.path()).current_dir(case::root());
+    build.arg("--target-dir").arg(folder.path()).current_dir(root());
     let (clock, processors) = (now(), children_s());
     output(&mut build)?;
     figures.add("first build, by the clock", "all", clock.elapsed().as_secs_f64());
@@ -199,7 +199,7 @@ fn tests(log: Option<&Path>, figures: &mut Figures) -> Result<(), Box<dyn std::e
         read(log)?
     } else {
         let mut test = Command::new("cargo");
-        output(test.args(["test", "--workspace", "--locked"]).current_dir(case::root()))?
+        output(test.args(["test", "--workspace", "--locked"]).current_dir(root()))?
     };
     // "test result: ok. 12 passed; 0 failed; ..."
     let results = text.lines().filter_map(|line| line.strip_prefix("test result: "));
@@ -209,11 +209,6 @@ fn tests(log: Option<&Path>, figures: &mut Figures) -> Result<(), Box<dyn std::e
     let passed = results.filter_map(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());
     figures.add("tests passed", "all", passed.sum());
     Ok(())
-}
-
-fn read(path: &Path) -> Result<String, FiguresError> {
-    std::fs::read_to_string(path)
-        .map_err(|source| FiguresError::File { path: path.to_owned(), source })
 }
 
 /// Builds are timed.

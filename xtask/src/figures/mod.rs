@@ -8,11 +8,12 @@ mod programs;
 mod record;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 
 use self::record::{Figures, History, Record};
+use crate::files::{FileError, root, write};
 
 /// What to measure.
 #[derive(Debug, clap::Args)]
@@ -127,8 +128,8 @@ static KINDS: &[Kind] = &[
 /// Why nothing was measured.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FiguresError {
-    #[error("{}: {source}", path.display())]
-    File { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    File(#[from] FileError),
     #[error("{}: {source}", path.display())]
     Json { path: PathBuf, source: serde_json::Error },
     #[error("{program} cannot be run: {source}")]
@@ -147,7 +148,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
         counted::work()?;
         return Ok((String::new(), true));
     }
-    let path = crate::case::root().join(HISTORY);
+    let path = root().join(HISTORY);
     if arguments.draw {
         draw(&History::read(&path)?)?;
         return Ok((String::new(), true));
@@ -178,12 +179,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), Box<dyn std::
 
 /// Writes page and drawing.
 fn draw(history: &History) -> Result<(), FiguresError> {
-    let root = crate::case::root();
-    write(&root.join(PAGE), &page::page(history))?;
-    write(&root.join(DRAWING), &page::drawing(history))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), FiguresError> {
-    std::fs::write(path, text)
-        .map_err(|source| FiguresError::File { path: path.to_owned(), source })
+    write(&root().join(PAGE), &page::page(history))?;
+    Ok(write(&root().join(DRAWING), &page::drawing(history))?)
 }

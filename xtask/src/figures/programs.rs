@@ -4,10 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::FiguresError;
-use crate::case;
+use crate::files::root;
 
-/// The agent whose figures are watched.
-pub(super) const SHIPPED: &str = "autopilot/agent/autopilot.conf";
 /// The programs whose instructions and cadence are measured, always built in the same way: another profile, and what cargo does
 /// for the next build, make other instructions.
 pub(super) struct Programs {
@@ -21,11 +19,11 @@ impl Programs {
             let own = std::env::current_exe()?;
             return Ok(Self { folder: own.parent().map(Path::to_owned).unwrap_or_default() });
         }
-        let target = case::root().join("target/figures");
+        let target = root().join("target/figures");
         let mut build = Command::new("cargo");
         build.args(["build", "--quiet", "--locked", "--workspace", "--bins"]);
         build.env("CARGO_INCREMENTAL", "0").arg("--target-dir").arg(&target);
-        output(build.current_dir(case::root()))?;
+        output(build.current_dir(root()))?;
         Ok(Self { folder: target.join("debug") })
     }
 

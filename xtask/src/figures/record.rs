@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{FiguresError, KINDS, Kind, Loss, Part};
+use crate::files::cannot;
 
 /// Figures by what they measure and of what, such as `state: autopilot`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -151,7 +152,7 @@ impl History {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return Ok(Self::default());
             }
-            Err(source) => return Err(FiguresError::File { path: path.to_owned(), source }),
+            Err(error) => return Err(cannot("read", path)(error).into()),
         };
         serde_json::from_str(&text)
             .map_err(|source| FiguresError::Json { path: path.to_owned(), source })
@@ -182,6 +183,7 @@ fn pretty(value: &impl Serialize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files;
 
     fn record(figures: &[(&str, &str, f64)]) -> Record {
         let mut record = Record::new(Figures::default());
@@ -257,9 +259,8 @@ mod tests {
     /// What is checked in is what is compared with, and what the page says.
     #[test]
     fn the_page_is_made_of_the_records() {
-        let root = crate::case::root();
-        let history = History::read(&root.join(super::super::HISTORY)).unwrap();
-        let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+        let read = |path: &str| files::read(&files::root().join(path)).unwrap();
+        let history = History::read(&files::root().join(super::super::HISTORY)).unwrap();
         assert_eq!(history.json(), read(super::super::HISTORY));
         assert_eq!(super::super::page::page(&history), read(super::super::PAGE));
         assert_eq!(super::super::page::drawing(&history), read(super::super::DRAWING));

@@ -5,31 +5,29 @@ use std::process::Command;
 
 use mavlink_bindgen::XmlDefinitions;
 
-use super::{MavlinkError, read};
+use super::MavlinkError;
+use crate::files::{cannot, read, root, write};
 
 /// Generates it.
 pub(super) fn generate() -> Result<String, MavlinkError> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let work = tempfile::tempdir()
-        .map_err(|source| MavlinkError::File { path: std::env::temp_dir(), source })?;
-    let xml = root.join("mavlink-vehicle/dialect/pilot.xml");
+    let work = tempfile::tempdir().map_err(cannot("use", &std::env::temp_dir()))?;
+    let xml = root().join("mavlink-vehicle/dialect/pilot.xml");
     mavlink_bindgen::generate(XmlDefinitions::Files(vec![xml]), work.path())?;
     let path = work.path().join("pilot.rs");
-    let text = without_features(&read(path.clone())?);
-    let written = std::fs::write(&path, text);
-    written.map_err(|source| MavlinkError::File { path: path.clone(), source })?;
+    let text = without_features(&read(&path)?);
+    write(&path, &text)?;
     // As `cargo fmt` does it, or the two would disagree.
     let done = Command::new("rustfmt")
         .args(["--edition", "2024", "--config-path"])
-        .arg(root.join("rustfmt.toml"))
+        .arg(root().join("rustfmt.toml"))
         .arg(&path)
         .output()
-        .map_err(|source| MavlinkError::File { path: "rustfmt".into(), source })?;
+        .map_err(cannot("run", Path::new("rustfmt")))?;
     if !done.status.success() {
         let said = String::from_utf8_lossy(&done.stderr);
         return Err(MavlinkError::Format(said.lines().next().unwrap_or_default().to_owned()));
     }
-    Ok(with_empty_masks(&read(path)?))
+    Ok(with_empty_masks(&read(&path)?))
 }
 
 /// Leaves out what is generated for features that the crate does not have; the compiler would warn of each.

@@ -3,13 +3,15 @@
 mod code;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use crate::files::{FileError, read, root, write};
 
 /// Why the code cannot be generated or read.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MavlinkError {
-    #[error("{path}: {source}", path = .path.display())]
-    File { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    File(#[from] FileError),
     #[error("the dialect cannot be read: {0}")]
     Dialect(#[from] mavlink_bindgen::BindGenError),
     #[error("rustfmt refuses the generated code: {0}")]
@@ -31,25 +33,21 @@ pub(crate) struct Arguments {
 
 /// Where the code is checked in.
 fn checked_in() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../mavlink-vehicle/src/dialect.rs")
-}
-
-fn read(path: PathBuf) -> Result<String, MavlinkError> {
-    std::fs::read_to_string(&path).map_err(|source| MavlinkError::File { path, source })
+    root().join("mavlink-vehicle/src/dialect.rs")
 }
 
 /// Writes the code, or looks at what is there. Returns what to print, and whether it is good.
 pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), MavlinkError> {
     let path = checked_in();
     if arguments.table {
-        return Ok((table::table(&read(path)?)?, true));
+        return Ok((table::table(&read(&path)?)?, true));
     }
     let code = code::generate()?;
     if !arguments.check {
-        std::fs::write(&path, &code).map_err(|source| MavlinkError::File { path, source })?;
+        write(&path, &code)?;
         return Ok((format!("{} lines\n", code.lines().count()), true));
     }
-    let good = read(path)? == code;
+    let good = read(&path)? == code;
     let text = if good { "up to date\n" } else { "not up to date: run `cargo xtask mavlink`\n" };
     Ok((text.to_owned(), good))
 }

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::workspace::Workspace;
-use super::{MutantsError, cargo, chosen, in_file};
+use super::{MutantsError, cargo, chosen};
 use crate::compare::{self, Change, Line};
 use crate::edit::{Mutant, edit};
+use crate::files::cannot;
 
 const ESTIMATOR: &str = "estimator/src/lib.rs";
 const BELIEF: &str = "estimator/src/belief.rs";
@@ -229,7 +230,7 @@ fn flown(workspace: &Workspace, name: &str, flights: Flights) -> Result<Flown, M
         // Debug information would only slow the build.
         .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
         .output()
-        .map_err(in_file("cannot run", Path::new("cargo")))?;
+        .map_err(cannot("run", Path::new("cargo")))?;
     if !built.status.success() {
         let text = String::from_utf8_lossy(&built.stderr).into_owned();
         return Err(MutantsError::Build { name: name.to_owned(), text });
@@ -237,7 +238,7 @@ fn flown(workspace: &Workspace, name: &str, flights: Flights) -> Result<Flown, M
     let xtask = workspace.target().join("release/xtask");
     let run = |arguments: &[String]| {
         let output = Command::new(&xtask).args(arguments).output();
-        let output = output.map_err(in_file("cannot run", &xtask))?;
+        let output = output.map_err(cannot("run", &xtask))?;
         // 1 only says that something was found.
         if matches!(output.status.code(), Some(0 | 1)) {
             return Ok(String::from_utf8_lossy(&output.stdout).into_owned());

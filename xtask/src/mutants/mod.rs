@@ -12,23 +12,19 @@ mod workspace;
 
 use std::fmt::Write as _;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use self::list::{Expected, Mutant};
 use self::workspace::Workspace;
+use crate::files::{FileError, cannot, target_folder};
 
 /// Why the mutants could not be judged.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MutantsError {
     /// A file or a program.
-    #[error("{what}: {source}")]
-    Io {
-        /// The operation.
-        what: String,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The source has changed since the mutant was written.
     #[error(
         "{name}: the text to be replaced stands {times} times in {file}: the code has changed, mend the mutant"
@@ -160,14 +156,14 @@ fn judged(workspace: &Workspace, name: &str, judge: Judge) -> Result<End, Mutant
         // Debug information would only slow the build.
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .output()
-        .map_err(in_file("cannot run", Path::new("cargo")))?;
+        .map_err(cannot("run", Path::new("cargo")))?;
     if !built.status.success() {
         let text = String::from_utf8_lossy(&built.stderr).into_owned();
         return Err(MutantsError::Build { name: name.to_owned(), text });
     }
     let judge = workspace.target().join("debug").join(program);
     let judged = Command::new(&judge).args(arguments).output();
-    Ok(end(&judged.map_err(in_file("cannot run", &judge))?))
+    Ok(end(&judged.map_err(cannot("run", &judge))?))
 }
 
 /// Evaluates the judge's output; an aborted run has found a fault too.
@@ -193,15 +189,15 @@ pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
     if !there.is_ok_and(|output| output.status.success()) {
         return Err(MutantsError::NoCargoMutants);
     }
-    let output = folder();
-    std::fs::create_dir_all(&output).map_err(in_file("cannot make", &output))?;
+    let output = target_folder("mutants");
+    std::fs::create_dir_all(&output).map_err(cannot("make", &output))?;
     let status = cargo(Path::new("."))
         .args(["mutants", "--no-times", "--colors", "never", "--output"])
         .arg(&output)
         // Round-robin, so that each shard is a sample of all mutants.
         .args(shard.iter().flat_map(|shard| ["--sharding", "round-robin", "--shard", shard]))
         .status()
-        .map_err(in_file("cannot run", Path::new("cargo")))?;
+        .map_err(cannot("run", Path::new("cargo")))?;
     let lists = output.join("mutants.out");
     Ok((format!("what survived is in {}\n", lists.join("missed.txt").display()), status.success()))
 }
@@ -224,22 +220,11 @@ fn chosen<'a, E>(
     if mutants.is_empty() {
         return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
     }
-    let workspace = Workspace::copy(Path::new("."), &folder())?;
+    let workspace = Workspace::copy(Path::new("."), &target_folder("mutants"))?;
     for mutant in &mutants {
         workspace.changed(mutant)?;
     }
     Ok((mutants, workspace))
-}
-
-fn folder() -> PathBuf {
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
-    target.join("mutants")
-}
-
-fn in_file(what: &str, path: &Path) -> impl FnOnce(io::Error) -> MutantsError {
-    let what = format!("{what} {}", path.display());
-    move |source| MutantsError::Io { what, source }
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{MutantsError, in_file};
+use super::MutantsError;
 use crate::edit::Mutant;
+use crate::files::{FileError, cannot, read, write};
 
 /// Target folder of the copy.
 const TARGET: &str = "target";
@@ -32,7 +33,7 @@ impl Workspace {
         }
         workspace.remove_others(&workspace.copy, &files)?;
         let copy = &workspace.copy;
-        let copy = copy.canonicalize().map_err(in_file("cannot find", copy))?;
+        let copy = copy.canonicalize().map_err(cannot("find", copy))?;
         Ok(Self { copy, ..workspace })
     }
 
@@ -62,8 +63,7 @@ impl Workspace {
             let text = if let Some(text) = changed.remove(edit.file) {
                 text
             } else {
-                let path = self.original.join(edit.file);
-                std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))?
+                read(&self.original.join(edit.file))?
             };
             let text = edit.apply(&text).map_err(|times| {
                 let (name, file) = (mutant.name, edit.file);
@@ -78,13 +78,13 @@ impl Workspace {
     pub(super) fn put(&self, changed: &Changed) -> Result<(), MutantsError> {
         for (file, text) in changed {
             let path = self.copy.join(file);
-            std::fs::write(&path, text).map_err(in_file("cannot write", &path))?;
+            write(&path, text)?;
         }
         Ok(())
     }
 
     /// Restores the copy to the original.
-    pub(super) fn restore(&self, changed: &Changed) -> Result<(), MutantsError> {
+    pub(super) fn restore(&self, changed: &Changed) -> Result<(), FileError> {
         changed.keys().try_for_each(|file| self.update(Path::new(file)))
     }
 
@@ -93,37 +93,37 @@ impl Workspace {
             .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
             .current_dir(&self.original)
             .output()
-            .map_err(in_file("cannot run", Path::new("git")))?;
+            .map_err(cannot("run", Path::new("git")))?;
         let names = String::from_utf8_lossy(&git.stdout).into_owned();
         let files = names.split('\0').filter(|name| !name.is_empty()).map(PathBuf::from);
         // A file that was deleted but not yet committed must not be copied.
         Ok(files.filter(|file| self.original.join(file).is_file()).collect())
     }
 
-    fn update(&self, file: &Path) -> Result<(), MutantsError> {
+    fn update(&self, file: &Path) -> Result<(), FileError> {
         let (from, to) = (self.original.join(file), self.copy.join(file));
-        let content = std::fs::read(&from).map_err(in_file("cannot read", &from))?;
+        let content = std::fs::read(&from).map_err(cannot("read", &from))?;
         if std::fs::read(&to).is_ok_and(|there| there == content) {
             return Ok(());
         }
         if let Some(folder) = to.parent() {
-            std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+            std::fs::create_dir_all(folder).map_err(cannot("make", folder))?;
         }
-        std::fs::write(&to, content).map_err(in_file("cannot write", &to))
+        std::fs::write(&to, content).map_err(cannot("write", &to))
     }
 
     /// Removes files that the original does not have.
     fn remove_others(&self, folder: &Path, files: &BTreeSet<PathBuf>) -> Result<(), MutantsError> {
-        let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
+        let entries = std::fs::read_dir(folder).map_err(cannot("read", folder))?;
         for entry in entries {
-            let path = entry.map_err(in_file("cannot read", folder))?.path();
+            let path = entry.map_err(cannot("read", folder))?.path();
             let Ok(own) = path.strip_prefix(&self.copy) else { continue };
             if path.is_dir() {
                 if own != Path::new(TARGET) {
                     self.remove_others(&path, files)?;
                 }
             } else if !files.contains(own) {
-                std::fs::remove_file(&path).map_err(in_file("cannot remove", &path))?;
+                std::fs::remove_file(&path).map_err(cannot("remove", &path))?;
             }
         }
         Ok(())

@@ -9,8 +9,9 @@ use std::process::Command;
 use asl2c::{Counts, Share};
 use serde::Deserialize;
 
+use super::VerifyError;
 use super::mutants::C;
-use super::{VerifyError, folder, in_file};
+use crate::files::{self, cannot, target_folder};
 
 /// Test filters: flights in simulated time, and the agent's own tests.
 const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
@@ -79,9 +80,9 @@ impl Coverage {
 
 /// Builds with counters, and runs, the tests that are meant to exercise the agent.
 pub(super) fn measure() -> Result<Coverage, VerifyError> {
-    let built = folder(BUILT);
+    let built = target_folder(BUILT);
     for path in agents(&built)?.iter().flat_map(|agent| &agent.counts) {
-        std::fs::remove_file(path).map_err(in_file("cannot remove", path))?;
+        std::fs::remove_file(path).map_err(cannot("remove", path))?;
     }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tests = Command::new(&cargo);
@@ -90,7 +91,7 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
     tests.args(TESTS);
     tests.env(COUNTS, "1").env("CARGO_TARGET_DIR", &built);
     let output = tests.output();
-    let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
+    let output = output.map_err(cannot("run", Path::new(&cargo)))?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         return Err(VerifyError::Tool { tool: "cargo test", output: text });
@@ -100,9 +101,9 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
 
 /// What tests have counted that somebody else builds, in this target folder, and runs, and who holds the lock so long.
 pub(super) fn counted(built: &Path) -> Result<Coverage, VerifyError> {
-    let lock = folder(LOCK);
-    let done = File::create(&lock).map_err(in_file("cannot make", &lock))?;
-    done.lock().map_err(in_file("cannot wait for", &lock))?;
+    let lock = target_folder(LOCK);
+    let done = File::create(&lock).map_err(cannot("make", &lock))?;
+    done.lock().map_err(cannot("wait for", &lock))?;
     read(built)
 }
 
@@ -131,7 +132,7 @@ fn agents(built: &Path) -> Result<Vec<Built>, VerifyError> {
 }
 
 fn listed(folder: &Path) -> Result<Vec<PathBuf>, VerifyError> {
-    let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
+    let entries = std::fs::read_dir(folder).map_err(cannot("read", folder))?;
     Ok(entries.filter_map(Result::ok).map(|entry| entry.path()).collect())
 }
 
@@ -143,7 +144,7 @@ fn read(built: &Path) -> Result<Coverage, VerifyError> {
         let mut gcov = Command::new("gcov");
         let output =
             gcov.args(Counts::OPTIONS).args(&agent.counts).current_dir(&agent.folder).output();
-        let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
+        let output = output.map_err(cannot("run", Path::new("gcov")))?;
         let counts =
             Counts::parse(&String::from_utf8_lossy(&output.stdout), C).map_err(odd("gcov"))?;
         let is_the_same = whole.as_ref().is_none_or(|(others, _)| counts.is_of_the_same(others));
@@ -160,10 +161,7 @@ fn read(built: &Path) -> Result<Coverage, VerifyError> {
         let output = format!("no test has counted what the agent executes, in {}", built.display());
         return Err(VerifyError::Tool { tool: "cargo test", output });
     };
-    let read = |name: &str| {
-        let path = folder.join(name);
-        std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))
-    };
+    let read = |name: &str| files::read(&folder.join(name));
     let rows: Vec<Row> = serde_json::from_str(&read(TRACE)?).map_err(odd("asl2c"))?;
     Ok(assign(&counts, &rows, &read(C)?))
 }

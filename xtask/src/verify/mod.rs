@@ -10,7 +10,7 @@ mod tools;
 
 use std::fmt::Write as _;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use asl2c::{
@@ -23,19 +23,15 @@ use self::mutants::{AGENT, C, CONFIGURATION, MUTANTS, Mutant, RUN_TIME};
 use self::proof::{broken, prove, to_prove, violates, write_program};
 use self::report::Report;
 use self::tools::{Missing, Tools};
+use crate::files::{FileError, SHIPPED_AGENT, cannot, target_folder, write};
 use crate::parallel;
 
 /// Why the verification failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum VerifyError {
     /// A file or a program.
-    #[error("{what}: {source}")]
-    Io {
-        /// The operation.
-        what: String,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// Required tools are missing.
     #[error("{0}")]
     Missing(Missing),
@@ -86,7 +82,6 @@ const AUTOPILOT: Agent<'_> = Agent {
     configuration: include_str!("../../../autopilot/agent/autopilot.conf"),
     text: include_str!("../../../autopilot/agent/autopilot.asl"),
 };
-const CONFIGURATION_FILE: &str = "autopilot/agent/autopilot.conf";
 const PAPER: Agent<'_> = Agent {
     name: "paper.conf",
     configuration: include_str!("../../../translator/agents/paper.conf"),
@@ -172,7 +167,7 @@ impl Caught {
 /// Proves the properties of the shipped agent, and nothing else. Returns the report.
 pub(crate) fn proofs() -> Result<(String, bool), VerifyError> {
     let verifier = Verifier { cbmc: Tools::find(true)?.cbmc };
-    let folder = folder("verify").join("autopilot");
+    let folder = target_folder("verify").join("autopilot");
     let autopilot = verifier.verify(&AUTOPILOT, &folder, &read_invariant()?)?;
     Ok((report::proved(&autopilot), autopilot.hold()))
 }
@@ -187,9 +182,9 @@ pub(crate) fn run(counted: Option<&Path>) -> Result<(String, bool), VerifyError>
     let evidence = verifier.certify(&known)?;
     let autopilot = Findings::of_evidence(model::check(&AUTOPILOT)?, &evidence);
     if autopilot.hold() && evidence.invariant != known {
-        write(Path::new(""), INVARIANT, &(evidence.invariant.join("\n") + "\n"))?;
+        write(Path::new(INVARIANT), &(evidence.invariant.join("\n") + "\n"))?;
     }
-    let paper = verifier.verify(&PAPER, &folder("verify").join("paper"), &[])?;
+    let paper = verifier.verify(&PAPER, &target_folder("verify").join("paper"), &[])?;
     let mutants = verifier.mutants(&evidence.invariant)?;
     let coverage = counted.map_or_else(coverage::measure, coverage::counted)?;
     let shown = [
@@ -204,7 +199,7 @@ pub(crate) fn run(counted: Option<&Path>) -> Result<(String, bool), VerifyError>
     let report = Report { versions, evidence, autopilot, paper, mutants, coverage };
     let mut lines = report.lines();
     if good {
-        write(Path::new(""), REPORT, &report.markdown())?;
+        write(Path::new(REPORT), &report.markdown())?;
     } else {
         _ = writeln!(lines, "Not all was shown: {REPORT} is left as it was");
     }
@@ -236,9 +231,9 @@ impl Verifier {
 
     /// The evidence for the shipped agent, as `asl2c certify` makes it, in its folder.
     fn certify(&self, known: &[String]) -> Result<Evidence, VerifyError> {
-        let agent = asl2c::Agent::read(Path::new(CONFIGURATION_FILE))?;
+        let agent = asl2c::Agent::read(Path::new(SHIPPED_AGENT))?;
         let certified = certify(&agent, &[], &self.cbmc, LIMITS, known, &mut |_| ())?;
-        certified.write(&folder(EVIDENCE), &[])?;
+        certified.write(&target_folder(EVIDENCE), &[])?;
         Ok(certified.evidence)
     }
 
@@ -248,7 +243,7 @@ impl Verifier {
         let mut numbers: Vec<usize> = (0..MUTANTS.len()).collect();
         numbers.sort_by_key(|number| MUTANTS[*number].first.file != C);
         let mut caught = parallel::map(&numbers, |number| {
-            let folder = folder("verify").join(format!("mutant{number}"));
+            let folder = target_folder("verify").join(format!("mutant{number}"));
             self.mutant(&MUTANTS[number], invariant, &folder).map(|caught| (number, caught))
         })?;
         caught.sort_by_key(|(number, _)| *number);
@@ -296,27 +291,10 @@ impl Verifier {
 }
 
 /// The invariant found last; empty if there is none.
-fn read_invariant() -> Result<Vec<String>, VerifyError> {
+fn read_invariant() -> Result<Vec<String>, FileError> {
     match std::fs::read_to_string(INVARIANT) {
         Ok(text) => Ok(text.lines().map(str::to_owned).collect()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-        Err(error) => Err(in_file("cannot read", Path::new(INVARIANT))(error)),
+        Err(error) => Err(cannot("read", Path::new(INVARIANT))(error)),
     }
-}
-
-/// Folder of the tools and generated files.
-fn folder(name: &str) -> PathBuf {
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
-    target.join(name)
-}
-
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), VerifyError> {
-    let path = folder.join(name);
-    std::fs::write(&path, text).map_err(in_file("cannot write", &path))
-}
-
-fn in_file(what: &str, path: &Path) -> impl FnOnce(io::Error) -> VerifyError {
-    let what = format!("{what} {}", path.display());
-    move |source| VerifyError::Io { what, source }
 }

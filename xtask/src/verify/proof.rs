@@ -6,7 +6,8 @@ use asl2c::{Cbmc, Plan, Proof};
 use translator::{Obligations, obligations, parse_configuration};
 
 use super::mutants::RUN_TIME;
-use super::{Agent, VerifyError, in_file, write};
+use super::{Agent, VerifyError};
+use crate::files::{cannot, write};
 
 /// What was not proved.
 pub(super) fn broken(proof: &Proof) -> Vec<&str> {
@@ -45,11 +46,11 @@ pub(super) fn write_program(
     folder: &Path,
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<(), VerifyError> {
-    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+    std::fs::create_dir_all(folder).map_err(cannot("make", folder))?;
     let obligations = to_prove(agent, change)?;
     let nothing = obligations.invariant(&[]);
     let mut files = obligations.files.iter().chain([&nothing]);
-    files.try_for_each(|file| write(folder, &file.name, &file.text))
+    Ok(files.try_for_each(|file| write(&folder.join(&file.name), &file.text))?)
 }
 
 /// What is proved of an agent; `change` may spoil its files.

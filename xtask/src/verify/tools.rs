@@ -8,7 +8,8 @@ use std::process::Command;
 
 use asl2c::{Cbmc, FRAMA_C, SPIN};
 
-use super::{VerifyError, folder, in_file};
+use super::VerifyError;
+use crate::files::{cannot, target_folder};
 
 /// The tools found.
 #[derive(Debug)]
@@ -78,12 +79,12 @@ impl Tools {
         let is_there = |needed: &Needed| version(needed.program, needed.version).is_some();
         check(&needed, is_there).map_err(VerifyError::Missing)?;
         let script = Path::new("xtask/tools/cbmc.sh");
-        let fetched = Command::new(script).arg(folder("tools")).status();
+        let fetched = Command::new(script).arg(target_folder("tools")).status();
         // The script has printed the reason.
-        if !fetched.map_err(in_file("cannot run", script))?.success() {
+        if !fetched.map_err(cannot("run", script))?.success() {
             return Err(VerifyError::NoCbmc);
         }
-        let cbmc = folder("tools").join("cbmc");
+        let cbmc = target_folder("tools").join("cbmc");
         let cbmc = Cbmc::find(Some(&cbmc))?;
         let versions = Versions {
             cbmc: cbmc.version().to_owned(),
