@@ -61,14 +61,17 @@ impl Record {
         if note.is_empty() { version.clone() } else { format!("{version} ({note})") }
     }
 
-    /// Takes over the figures of other parts than these.
+    /// Takes over the figures of other parts than these, and those that differ by noise alone: small losses, each recorded for
+    /// the next one to be compared with, would add up unseen.
     pub(super) fn keep_of(&mut self, last: &Self, parts: &[Part]) {
-        let other = last
-            .figures
-            .0
-            .iter()
-            .filter(|(key, _)| split(key).is_some_and(|(kind, _)| !parts.contains(&kind.part)));
-        self.figures.0.extend(other.map(|(key, value)| (key.clone(), *value)));
+        for (key, before) in &last.figures.0 {
+            let Some((kind, _)) = split(key) else { continue };
+            let now = self.figures.0.get(key);
+            let is_noise = |now: &f64| kind.is_judged() && kind.change(*before, *now).is_none();
+            if !parts.contains(&kind.part) || now.is_some_and(is_noise) {
+                self.figures.0.insert(key.clone(), *before);
+            }
+        }
     }
 
     /// What differs from the last record, of these parts, and whether anything was lost.
@@ -115,6 +118,10 @@ impl Record {
 }
 
 impl Kind {
+    fn is_judged(&self) -> bool {
+        self.loss != Loss::NotJudged
+    }
+
     /// A word for a difference beyond noise.
     fn change(&self, before: f64, now: f64) -> Option<&'static str> {
         let worse = match self.loss {
@@ -230,6 +237,17 @@ mod tests {
         assert!(record(&[]).against(&before, PARTS).1);
         // Unless its part was left out.
         assert!(!against(&[("state", "autopilot", 50.0)], &[]).1);
+    }
+
+    #[test]
+    fn small_losses_add_up() {
+        let first = record(&[(TIME, "rec", 50.0)]);
+        let mut second = record(&[(TIME, "rec", 50.9)]);
+        second.keep_of(&first, PARTS);
+        assert!(record(&[(TIME, "rec", 51.8)]).against(&second, PARTS).1);
+        let mut gain = record(&[(TIME, "rec", 45.0)]);
+        gain.keep_of(&first, PARTS);
+        assert_eq!(gain, record(&[(TIME, "rec", 45.0)]));
     }
 
     #[test]
