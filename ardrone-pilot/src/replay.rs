@@ -113,6 +113,7 @@ impl Replay {
                 | Entry::Tags(_)
                 | Entry::Message(_)
                 | Entry::Mission(_)
+                | Entry::Progress(_)
                 | Entry::Event { .. }
                 | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {

@@ -67,6 +67,13 @@ pub struct Mission {
     pub steps: Vec<String>,
 }
 
+/// How far the mission has come, when a step begins and when it is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Progress {
+    /// Its steps up to the last one that was carried out.
+    pub steps_done: usize,
+}
+
 /// A position and a heading in the world, which begins at the drone's start, or is the frame that a fleet's vehicles share.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {

@@ -19,7 +19,7 @@ use std::time::Duration;
 
 pub use messages::{
     Agent, AgentMessage, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition,
-    Mission, Place, Tag, Tags, Tick, Timing,
+    Mission, Place, Progress, Tag, Tags, Tick, Timing,
 };
 pub use neighbour::Neighbour;
 pub use order::Order;
@@ -46,7 +46,7 @@ const SETTINGS_FILE: &str = "pilot.toml";
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
 /// Version of the message format.
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 /// Name of the metadata record.
 const FLIGHT: &str = "flight";
 

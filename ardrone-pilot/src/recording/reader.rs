@@ -14,7 +14,7 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
-use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Tags, Tick};
+use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Progress, Tags, Tick};
 use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
@@ -65,6 +65,8 @@ pub enum Entry {
     Message(AgentMessage<'static>),
     /// The mission, which has changed.
     Mission(Mission),
+    /// How far the mission has come.
+    Progress(Progress),
     /// An event as text.
     Event {
         /// Whether it is a warning.
@@ -357,6 +359,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::NEIGHBOURS.name => Entry::Neighbour(parse(topic, data)?),
         _ if topic == topic::MESSAGES.name => Entry::Message(parse(topic, data)?),
         _ if topic == topic::MISSION.name => Entry::Mission(parse(topic, data)?),
+        _ if topic == topic::PROGRESS.name => Entry::Progress(parse(topic, data)?),
         _ if topic == topic::TAGS.name => Entry::Tags(parse(topic, data)?),
         _ if topic == topic::LOG.name => {
             #[derive(serde::Deserialize)]

@@ -42,6 +42,11 @@ pub(super) const MISSION: Topic = Topic {
     schema: "ardrone_pilot.Mission",
     text: include_str!("schemas/mission.json"),
 };
+pub(super) const PROGRESS: Topic = Topic {
+    name: "/progress",
+    schema: "ardrone_pilot.Progress",
+    text: include_str!("schemas/progress.json"),
+};
 /// Foxglove's log schema, displayed as log lines.
 pub(super) const LOG: Topic =
     Topic { name: "/log", schema: "foxglove.Log", text: include_str!("schemas/log.json") };
@@ -59,7 +64,7 @@ pub(super) const TAGS: Topic =
 /// Pictures of the drone's camera: protobuf, unlike the others.
 pub(super) const VIDEO: &str = "/video";
 
-pub(super) const ALL: [Topic; 12] = [
+pub(super) const ALL: [Topic; 13] = [
     TICK,
     NAVDATA,
     RAW_NAVDATA,
@@ -68,6 +73,7 @@ pub(super) const ALL: [Topic; 12] = [
     NEIGHBOURS,
     MESSAGES,
     MISSION,
+    PROGRESS,
     LOG,
     POSE,
     TARGET,

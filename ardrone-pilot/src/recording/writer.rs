@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::Packet;
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::{TagStatus, Telemetry};
+use autopilot::vehicle::{FlightEvent, TagStatus, Telemetry};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use mcap::records::{MessageHeader, Metadata};
@@ -18,7 +18,7 @@ use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
-use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Place, Tags, Tick};
+use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Place, Progress, Tags, Tick};
 use super::neighbour::Neighbour;
 use super::order::Order;
 use super::{
@@ -182,6 +182,14 @@ impl<W: Write + Seek> LogWriter<W> {
                 self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })
             }
             Telemetry::Event(event) => {
+                let steps_done = match event {
+                    FlightEvent::StepStarted { step } => Some(*step),
+                    FlightEvent::StepDone { step } => Some(step + 1),
+                    _ => None,
+                };
+                if let Some(steps_done) = steps_done {
+                    self.message(topic::PROGRESS, at, &Progress { steps_done })?;
+                }
                 self.log(at, level(!event.warns()), EVENT, &event.to_string())
             }
             Telemetry::Ended(outcome, _) => {

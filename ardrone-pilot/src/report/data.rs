@@ -128,7 +128,7 @@ impl<'a> Flight<'a> {
             events,
             tags: tags(log, span),
             others: others(log, span),
-            steps: steps_done(log, span.1, steps.len()),
+            steps: steps_done(log, span, steps.len()),
             begin_s,
             end_s,
             rows,
@@ -253,25 +253,14 @@ impl Decision {
     }
 }
 
-/// As the vehicle counts them at a moment of the recording ([`FlightReport`](autopilot::vehicle::FlightReport)): steps up to the
-/// last one that was carried out, and all, of the plan with which the recording begins or of the last mission.
-fn steps_done(log: &Log, until: Duration, of_plan: usize) -> [usize; 2] {
+/// As the vehicle counts them at the end of a part ([`FlightReport`](autopilot::vehicle::FlightReport)): steps up to the
+/// last one that was carried out in it, and all, of the plan with which the recording begins or of the last mission.
+fn steps_done(log: &Log, (from, until): (Duration, Duration), of_plan: usize) -> [usize; 2] {
     let mut done = [0, of_plan];
-    let mut before: &[String] = &[];
-    for (_, entry) in log.entries.iter().take_while(|(at, _)| *at <= until) {
+    for (at, entry) in log.entries.iter().take_while(|(at, _)| *at <= until) {
         match entry {
-            Entry::Mission(mission) => {
-                // What is appended leaves the count as it is.
-                if !mission.steps.starts_with(before) {
-                    done[0] = 0;
-                }
-                before = &mission.steps;
-                done[1] = mission.steps.len();
-            }
-            Entry::Event { text, .. } => {
-                let step = text.strip_prefix("step ").and_then(|rest| rest.strip_suffix(" done"));
-                done[0] = step.and_then(|step| step.parse().ok()).unwrap_or(done[0]);
-            }
+            Entry::Mission(mission) => done[1] = mission.steps.len(),
+            Entry::Progress(progress) if *at >= from => done[0] = progress.steps_done,
             _ => {}
         }
     }
