@@ -4,7 +4,9 @@ use nalgebra::{Rotation2, Vector2};
 
 /// The same direction in [-180, 180).
 pub fn wrap_deg(angle_deg: f64) -> f64 {
-    (angle_deg + 180.0).rem_euclid(360.0) - 180.0
+    let turned_deg = (angle_deg + 180.0).rem_euclid(360.0);
+    // Of what is just below zero the remainder is rounded up to a whole turn.
+    if turned_deg >= 360.0 { -180.0 } else { turned_deg - 180.0 }
 }
 
 /// The same direction in [-π, π).
@@ -34,6 +36,9 @@ mod tests {
             assert!((wrap_deg(angle) - wrapped).abs() < 1e-9, "{angle}");
             assert!((wrap_rad(f64::to_radians(angle)) - f64::to_radians(wrapped)).abs() < 1e-9);
         }
+        let just_below = (-180.0_f64).next_down();
+        assert!(wrap_deg(just_below) < 0.0, "not 180");
+        assert!(wrap_deg(f64::NAN).is_nan());
     }
 
     #[test]

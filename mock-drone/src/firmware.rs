@@ -500,13 +500,14 @@ impl Firmware {
         self.configuration.is_set("general:navdata_demo")
     }
 
-    /// Whether option `tag`, at most 31, is requested in demo mode.
+    /// Whether option `tag` is requested in demo mode; one above 31 cannot be.
     pub fn wants_option(&self, tag: u16) -> bool {
         if self.lies.contains(Lies::FIXED_OPTIONS) {
             return matches!(tag, 0 | 16);
         }
         let mask = self.configuration.text("general:navdata_options");
-        mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
+        let mask = mask.and_then(|mask| mask.parse::<u32>().ok()).unwrap_or(0);
+        mask.checked_shr(tag.into()).is_some_and(|rest| rest & 1 == 1)
     }
 
     /// Whether the video shows the bottom camera.
