@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-/// A drone's configuration as it reports it.
+/// A drone's configuration as it reports it: keys (`section:name`), each with its value as text, in the drone's units.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Configuration {
     values: BTreeMap<String, String>,
 }
 
 impl Configuration {
-    /// Parses a dump. A line without ` = ` continues the previous value, as the drone prints matrices.
+    /// Parses a dump, which may be any text. A line without ` =` continues the value before it, as the drone prints matrices
+    /// over several lines. Of a key that occurs twice the last value counts.
     pub fn parse(text: &str) -> Self {
         let mut values = BTreeMap::new();
         let mut last: Option<String> = None;
@@ -26,18 +27,22 @@ impl Configuration {
         Self { values }
     }
 
-    /// The value of `key` (`section:name`).
+    /// The value of `key` (`section:name`) as the drone has printed it; `None` if it has not reported such a key.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
     }
 
-    /// Whether the drone reports `value` for `key`. Numbers are compared as numbers, because the drone prints
-    /// `0.2` as `2.0000000e-01`: they may differ by 1e-5, of a `value` above 1 by that fraction.
+    /// Whether the drone reports `value` for `key`. Two numbers are compared as numbers, because the drone prints `0.2` as
+    /// `2.0000000e-01`: they may differ by 1e-5, or by 1e-5 of `value` if its magnitude is above 1. All else is compared
+    /// as text.
     pub fn has(&self, key: &str, value: &str) -> bool {
         let Some(reported) = self.get(key) else { return false };
+        if reported == value {
+            return true;
+        }
         match (reported.parse::<f64>(), value.parse::<f64>()) {
             (Ok(reported), Ok(value)) => (reported - value).abs() <= 1e-5 * value.abs().max(1.0),
-            _ => reported == value,
+            _ => false,
         }
     }
 
@@ -86,5 +91,7 @@ mod tests {
         assert!(!configuration.has("control:euler_angle_max", "0.3"));
         assert!(configuration.has("control:outdoor", "FALSE"));
         assert!(!configuration.has("control:missing", "1"));
+        let named = Configuration::parse("network:ssid_single_player = nan\n");
+        assert!(named.has("network:ssid_single_player", "nan"), "a name, and no number");
     }
 }

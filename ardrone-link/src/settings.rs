@@ -1,7 +1,8 @@
 //! Configuration keys with their types, units and ranges.
 //!
-//! [`Setting::config`] rejects values that the drone would reject, or accept and misinterpret. Ranges and
-//! defaults are those of Parrot's developer guide. Other keys can be sent as a plain [`Config`].
+//! [`Setting::config`] refuses values out of range. The ranges of the flight's limits are those that Parrot's developer
+//! guide recommends; where it has none, as for the floor, they are chosen here. Defaults are those of a drone as it leaves
+//! the factory. Other keys can be sent as a plain [`Config`].
 //!
 //! ```
 //! use ardrone_link::settings::Setting;
@@ -23,11 +24,11 @@ pub enum SettingError {
     Range {
         /// The key.
         key: &'static str,
-        /// The value, in the unit of the setting.
+        /// The value, in the unit of the setting; of a list the entry.
         value: f64,
-        /// The lowest allowed value.
+        /// The lowest allowed value, in the same unit.
         from: f64,
-        /// The highest allowed value.
+        /// The highest allowed value, in the same unit.
         to: f64,
     },
     /// The setting belongs to [`NavdataMode`], whose settings come first.
@@ -36,12 +37,22 @@ pub enum SettingError {
         /// The key.
         key: &'static str,
     },
-    /// The text cannot be sent.
+    /// No network can have this name.
+    #[error("{key} takes a name of 1 to {LONGEST_NETWORK_NAME} characters")]
+    NetworkName {
+        /// The key.
+        key: &'static str,
+    },
+    /// The text cannot be carried by an AT command.
     #[error(transparent)]
     Text(#[from] ConfigError),
 }
 
-/// Configuration to which a key belongs. With custom identities each category but the first has its own.
+/// Characters of the longest name of a network, by IEEE 802.11.
+const LONGEST_NETWORK_NAME: usize = 32;
+
+/// Which of the drone's configurations a key belongs to. A client with an identity of its own has its own values in every
+/// category but the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Category {
     /// Shared by all clients.
@@ -64,18 +75,18 @@ pub enum Camera {
     Bottom,
 }
 
-/// Reference for holding the position.
+/// What the drone holds its position over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlyingMode {
     /// The ground texture seen by the bottom camera.
     Free,
-    /// A roundel on the ground.
+    /// A roundel on the ground, which [`Setting::DetectType`] has to look for.
     HoverOnRoundel,
-    /// A roundel on the ground, including its direction.
+    /// The same, and the drone keeps its heading relative to the roundel.
     HoverOnOrientedRoundel,
 }
 
-/// Colours of the other drones' hulls.
+/// Colours of the tags on the other drones' hulls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnemyColors {
     /// Orange and green.
@@ -97,7 +108,7 @@ pub enum BitRateControl {
     Manual,
 }
 
-/// Tags that the cameras detect.
+/// What the cameras look for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detection {
     /// Nothing.
@@ -105,20 +116,20 @@ pub enum Detection {
     /// As selected for each camera by [`Setting::DetectionsFront`], [`Setting::DetectionsBottom`] and
     /// [`Setting::DetectionsBottomInStep`].
     Selected,
-    /// The black and white oriented roundel.
+    /// The black and white oriented roundel, with the bottom camera.
     OrientedRoundel,
-    /// Hulls and roundels, with the newer algorithm.
+    /// The second version of the tags on hulls, in front of the drone.
     VisionV2,
 }
 
-/// Options that the drone sends, and their rate.
+/// Navdata options that the drone sends, and their rate.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum NavdataMode {
-    /// Attitude, altitude, velocity and battery, 15 times a second.
+    /// Attitude, altitude, velocity and battery, 15 times a second. Which other options come with them is left as it is.
     #[default]
     Demo,
-    /// As [`NavdataMode::Demo`], plus the options with these tags, each below 28.
+    /// As [`NavdataMode::Demo`], with the options of these tags, each below 28, and no others.
     DemoWith(Vec<u16>),
     /// Every option, 200 times a second.
     Full,
@@ -147,7 +158,8 @@ impl Setting {
 
 macro_rules! settings {
     ($($(#[$doc:meta])* $name:ident($ctype:ty) = $key:literal, $category:ident, $value:expr;)*) => {
-        /// One key and its value.
+        /// A configuration key and its value. A number is in the unit at the end of its name; [`Setting::config`] refuses one
+        /// that is out of its range.
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
         pub enum Setting {
@@ -155,24 +167,26 @@ macro_rules! settings {
         }
 
         impl Setting {
-            /// `section:name`
+            /// The key: `section:name`.
             pub fn key(&self) -> &'static str {
                 match self {
                     $(Self::$name(_) => $key,)*
                 }
             }
 
-            /// The configuration to which it belongs.
+            /// The category to which the key belongs.
             pub fn category(&self) -> Category {
                 match self {
                     $(Self::$name(_) => Category::$category,)*
                 }
             }
 
-            /// The key and value to send.
+            /// The key and value to send. The drone takes limits in millimetres, radians and their rates.
             ///
             /// # Errors
-            /// [`SettingError`] if the drone would reject or misinterpret the value.
+            /// [`SettingError::Range`] if a number is out of its range, [`SettingError::NetworkName`] if no network can have
+            /// the name, [`SettingError::Text`] if a text cannot be carried
+            /// by an AT command.
             pub fn config(&self) -> Result<Config, SettingError> {
                 match self {
                     $(Self::$name(value) => {
@@ -219,13 +233,13 @@ settings! {
     OutdoorClimbMaxMS(f64) = "control:outdoor_control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
     /// Maximum yaw rate outdoors, 40 to 350 °/s.
     OutdoorYawRateMaxDegS(f64) = "control:outdoor_control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// Reference for holding the position.
+    /// What the drone holds its position over.
     FlyingMode(FlyingMode) = "control:flying_mode", Session, |_, mode| Ok(match mode {
         FlyingMode::Free => "0",
         FlyingMode::HoverOnRoundel => "1",
         FlyingMode::HoverOnOrientedRoundel => "2",
     }.to_owned());
-    /// Maximum distance from a roundel, 0.1 to 5 m; 1 m by default.
+    /// Maximum distance from the roundel that the drone hovers over, 0.1 to 5 m; 1 m by default.
     HoveringRangeM(f64) = "control:hovering_range", Session, |key, m| milli(key, *m, 0.1, 5.0);
     /// Camera of the video stream.
     VideoChannel(Camera) = "video:video_channel", Session, |_, camera| Ok(match camera {
@@ -248,7 +262,7 @@ settings! {
     VideoBitRateKbitS(u32) = "video:bitrate", Application, |key, rate| whole(key, *rate, 250, 4000);
     /// Whether video is recorded to a USB key.
     VideoOnUsb(bool) = "video:video_on_usb", Common, |_, on| flag(*on);
-    /// Tags that the cameras detect.
+    /// What the cameras look for; nothing by default.
     DetectType(Detection) = "detect:detect_type", Session, |_, detection| Ok(match detection {
         Detection::None => "3",
         Detection::Selected => "10",
@@ -256,13 +270,14 @@ settings! {
         Detection::VisionV2 => "13",
     }.to_owned());
     /// Tags for the front camera, a bit mask: kind `k` is bit `k - 1`, the black and white oriented roundel bit 7. It counts
-    /// with [`Detection::Selected`].
+    /// with [`Detection::Selected`]. The same kind must not be selected for both cameras.
     DetectionsFront(u32) = "detect:detections_select_h", Session, |_, bits| Ok(bits.to_string());
-    /// Tags for the bottom camera at 30 Hz, with the bits of [`Setting::DetectionsFront`].
+    /// Tags for the bottom camera in each of its pictures, at 60 Hz, with the bits of [`Setting::DetectionsFront`].
     DetectionsBottom(u32) = "detect:detections_select_v", Session, |_, bits| Ok(bits.to_string());
-    /// Tags for the bottom camera in sync with the hover control, with the bits of [`Setting::DetectionsFront`].
+    /// Tags for the bottom camera in step with the front camera, at 30 Hz, with the bits of [`Setting::DetectionsFront`]. Set
+    /// this one or [`Setting::DetectionsBottom`], not both.
     DetectionsBottomInStep(u32) = "detect:detections_select_v_hsync", Session, |_, bits| Ok(bits.to_string());
-    /// Colours of the other drones' hulls.
+    /// Colours of the tags on the other drones' hulls; orange and green by default.
     EnemyColors(EnemyColors) = "detect:enemy_colors", Common, |_, colors| Ok(match colors {
         EnemyColors::Green => "1",
         EnemyColors::Yellow => "2",
@@ -273,14 +288,10 @@ settings! {
     SlowUltrasound(bool) = "pic:ultrasound_freq", Common, |_, slow| {
         Ok(if *slow { "7" } else { "8" }.to_owned())
     };
-    /// Network name after the next start.
-    NetworkName(String) = "network:ssid_single_player", Common, |_, name| Ok(name.clone());
-    /// Latitude of the ground station, -90° to 90°, north positive.
-    LatitudeDeg(f64) = "gps:latitude", Session, |key, deg| number(key, *deg, -90.0, 90.0);
-    /// Longitude of the ground station, -180° to 180°, east positive.
-    LongitudeDeg(f64) = "gps:longitude", Session, |key, deg| number(key, *deg, -180.0, 180.0);
-    /// Elevation of the ground station, -500 to 9000 m above sea level.
-    ElevationM(f64) = "gps:altitude", Session, |key, m| number(key, *m, -500.0, 9000.0);
+    /// Name of the drone's Wi-Fi network after its next start: 1 to 32 characters of printable ASCII without quotation marks.
+    NetworkName(String) = "network:ssid_single_player", Common, |key, name| {
+        (1..=LONGEST_NETWORK_NAME).contains(&name.len()).then(|| name.clone()).ok_or(SettingError::NetworkName { key })
+    };
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "one signature for all kinds of values")]
@@ -345,7 +356,6 @@ mod tests {
             (Setting::VideoBitRateKbitS(250), "video:bitrate", "250"),
             (Setting::VideoMaxBitRateKbitS(4000), "video:max_bitrate", "4000"),
             (Setting::SlowUltrasound(false), "pic:ultrasound_freq", "8"),
-            (Setting::LatitudeDeg(-33.5), "gps:latitude", "-33.5"),
         ] {
             let config = setting.config().unwrap();
             assert_eq!((config.key(), config.value()), (key, value));
@@ -369,6 +379,8 @@ mod tests {
             Setting::VideoMaxBitRateKbitS(4_000_000),
             Setting::NavdataOptions(vec![28]),
             Setting::NetworkName("a\"b".to_owned()),
+            Setting::NetworkName("a".repeat(33)),
+            Setting::NetworkName(String::new()),
         ] {
             assert!(setting.config().is_err(), "{setting:?}");
         }

@@ -22,6 +22,8 @@ pub(super) struct Settings {
 }
 
 impl Settings {
+    /// Settings that are all still to be applied. The keys of the `identity` are set behind the first of them. With
+    /// `read_back` the drone's configuration is read afterwards.
     pub(super) fn new(mut all: Vec<Config>, identity: Option<Identity>, read_back: bool) -> Self {
         if let Some(identity) = identity {
             // The first key ends the bootstrap mode; the keys of the identity follow it.
@@ -32,21 +34,24 @@ impl Settings {
         Self { all, identity, read_back, handshake, changes: VecDeque::new(), change: None }
     }
 
+    /// The identity whose configurations are used; `None` for the default ones.
     pub(super) fn identity(&self) -> Option<Identity> {
         self.identity
     }
 
-    /// Whether all settings are applied. Requested changes are not awaited.
+    /// Whether each of the settings is acknowledged or given up, and the configuration read back if that was asked for, or
+    /// given up too. Requested changes are not awaited.
     pub(super) fn are_applied(&self) -> bool {
         self.handshake.is_done()
     }
 
-    /// Shortest time from a setting to its acknowledgement, when all settings were last applied.
+    /// Shortest time from a setting to its acknowledgement when all settings were last applied; `None` before the first
+    /// acknowledgement.
     pub(super) fn round_trip(&self) -> Option<Duration> {
         self.handshake.round_trip()
     }
 
-    /// Requests a change. Once complete, it is one of the settings that are applied again.
+    /// Requests a change. Once it is acknowledged or given up, it is one of the settings that are applied again.
     pub(super) fn request(&mut self, config: Config) {
         self.changes.push_back(config);
     }
@@ -79,6 +84,7 @@ impl Settings {
         acknowledged || changed
     }
 
+    /// Collects bytes from the control port, which has the configuration to be read back.
     pub(super) fn handle_control(&mut self, bytes: &[u8], events: &mut VecDeque<Event>) {
         self.handshake.handle_control(bytes, events);
     }

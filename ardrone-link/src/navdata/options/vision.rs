@@ -124,7 +124,7 @@ option! {
         rotations: [[f32; 9]; 4] as [[f32; 9]; 4],
         /// From the camera.
         translations: [[f32; 3]; 4] as [[f32; 3]; 4],
-        /// 0 front, 1 bottom, 2 bottom in sync with the hover control.
+        /// 0 front, 1 bottom, 2 bottom in step with the front camera.
         cameras: [u32; 4] as [u32; 4],
     }
 }
