@@ -8,7 +8,7 @@ use super::{Configuration, ExternalTrigger, Message};
 use crate::code::Code;
 use crate::syntax::ast::Name;
 
-/// The sections of a configuration.
+/// The names of the sections of a configuration.
 pub const SECTIONS: [&str; 13] = [
     "settings",
     "includes",
@@ -25,7 +25,9 @@ pub const SECTIONS: [&str; 13] = [
     "properties",
 ];
 
-/// Parses `text`. Returns the configuration and all errors.
+/// Parses the text of a configuration. Returns what could be read, and all errors with their places; without errors the
+/// configuration is complete. Missing settings and the names of outputs are judged if there is no other error, and of another
+/// version of the language nothing is read.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     const BYTE_ORDER_MARK: char = '\u{feff}';
     let position = if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 };
@@ -41,14 +43,18 @@ pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     (parser.configuration, parser.diagnostics)
 }
 
+/// The state of the parser, which collects errors and goes on behind them.
 pub(super) struct Parser<'a> {
+    /// The text.
     pub(super) scanner: Scanner<'a>,
+    /// What is declared so far.
     pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
-    /// Messages whose senders may be named behind them.
+    /// Messages so far. The section `peers`, which names their senders, may stand behind them.
     pub(super) messages: Vec<Message>,
     /// Place of the section `settings`, or where it is missing.
     pub(super) settings: Span,
+    /// The errors so far.
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
@@ -293,6 +299,14 @@ mod tests {
         assert_eq!(configuration.predicates[0].parameters[1].kind, TypeKind::Opaque);
         assert_eq!(configuration.includes.len(), 2);
         assert_eq!(configuration.triggerables.len(), 2);
+    }
+
+    #[test]
+    fn a_formula_is_told_as_it_is_written() {
+        let text = format!("{MINIMAL} properties {{ p /* a: b */ [A-1] : exactly_one(f); }};");
+        let (configuration, diagnostics) = parse(&text);
+        assert_eq!(diagnostics, []);
+        assert_eq!(configuration.properties[0].declared(&text).formula, "exactly_one(f)");
     }
 
     #[test]

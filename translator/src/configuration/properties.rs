@@ -9,55 +9,59 @@ use crate::code::Code;
 use crate::syntax::ast::{FOREIGN_RELATIONS, Name, Number, Relation};
 use crate::syntax::lexer::foreign_relation;
 
-/// A requirement that must hold in every environment and for any number of steps.
+/// A requirement that must hold in every environment and for any number of steps. `F` is the language of its formula, that of
+/// one agent or of a system.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Property<F = Formula> {
     /// Its name.
     pub name: Name,
-    /// The requirements that it implements.
+    /// Tags of the requirements that it implements.
     pub requirements: Vec<String>,
     /// Its formula.
     pub formula: F,
+    /// Where its formula is written.
+    pub formula_span: Span,
     /// The whole declaration.
     pub span: Span,
 }
 
-/// A property as declared.
+/// A property as it is written in the configuration, as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DeclaredProperty {
     /// Its name.
     pub name: String,
-    /// The requirements that it implements.
+    /// Tags of the requirements that it implements.
     pub requirements: Vec<String>,
-    /// Its formula, with single blanks.
+    /// Its formula, with single blanks between its words.
     pub formula: String,
 }
 
-/// Formula of a property. Actions are basic actions or classes of them.
+/// Formula of a property of one agent. Wherever it names an action, it may name a class of actions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Formula {
-    /// `exactly_one(a)`: number of calls of the actions in each step.
+    /// `exactly_one(a)`: a bound on the number of calls in each step.
     Count {
         /// The bound.
         bound: CallBound,
-        /// The action.
+        /// The action whose calls are counted.
         action: Name,
     },
-    /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the next
-    /// steps, unless one of the events is pending already or comes first. A comparison must continue to hold.
+    /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the next `n` steps, unless
+    /// one of the events is pending already or comes first. Of a comparison: in one of each `n` consecutive steps that begin
+    /// while it holds.
     Within {
-        /// Maximum number of steps.
+        /// Maximum number of steps, 1 to 1000.
         steps: u32,
         /// The cause.
         cause: Cause,
-        /// The required actions.
+        /// The actions of which one is required.
         actions: Vec<Name>,
-        /// Excusing events.
+        /// Events that excuse the agent.
         unless: Vec<ExternalTrigger>,
     },
-    /// `only_after(a, +!g, until b, c)`: the action is called only after the event was accepted, and not
-    /// again after a call of one of the others while no such event was pending.
+    /// `only_after(a, +!g, until b, c)`: the action is called only after the event was accepted, and not any more once one of
+    /// the others was called while no such event was pending.
     OnlyAfter {
         /// The action.
         action: Name,
@@ -66,12 +70,12 @@ pub enum Formula {
         /// Actions that end the permission.
         until: Vec<Name>,
     },
-    /// `all_handled`: each event is handled completely by some plan.
+    /// `all_handled`: each event is handled completely by some plan, or by a failure plan.
     AllHandled,
 }
 
 impl Formula {
-    /// The events that it is about.
+    /// The events that it names.
     pub(crate) fn events(&self) -> Vec<&ExternalTrigger> {
         match self {
             Self::Count { .. } | Self::AllHandled => Vec::new(),
@@ -84,25 +88,25 @@ impl Formula {
     }
 }
 
-/// Bound on the calls in a step.
+/// Bound on the number of calls in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CallBound {
-    /// `exactly_one`
+    /// `exactly_one`: one call.
     ExactlyOne,
-    /// `at_most_one`
+    /// `at_most_one`: no call, or one.
     AtMostOne,
-    /// `at_least_one`
+    /// `at_least_one`: one call or more.
     AtLeastOne,
-    /// `never`
+    /// `never`: no call.
     Never,
 }
 
-/// Cause that requires an answer.
+/// What requires an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Cause {
-    /// The environment raised an event, or a peer caused it, and it was accepted.
+    /// The environment has raised an event, or a peer has caused it, and it was accepted.
     Event(ExternalTrigger),
-    /// The agent called an action.
+    /// The agent has called an action.
     Action(Name),
     /// A comparison holds at the start of a step.
     Comparison(Comparison),
@@ -125,12 +129,12 @@ pub struct Comparison {
 pub enum Operand {
     /// A belief with one value of the same type.
     Belief(Name),
-    /// A number of its type.
+    /// A number, of the type of the left side.
     Number(Number),
 }
 
 impl Comparison {
-    /// The compared beliefs.
+    /// The beliefs that are compared, one or two.
     pub fn beliefs(&self) -> impl Iterator<Item = &Name> {
         let right = match &self.right {
             Operand::Belief(name) => Some(name),
@@ -146,7 +150,7 @@ const FORMULAS: &str = "`exactly_one`, `at_most_one`, `at_least_one`, `never`, `
 const MOST_STEPS: u32 = 1000;
 
 impl Parser<'_> {
-    /// `name [TAG, TAG]: formula;`
+    /// `name [TAG, TAG]: formula;`, which is added to the properties.
     pub(super) fn property(&mut self) -> Parsed<()> {
         let head = self.scanner.property_head()?;
         let formula = self.formula()?;
@@ -298,15 +302,17 @@ impl Parser<'_> {
     }
 }
 
-/// The part of a property before its formula.
+/// The part of a property before its formula: `name [TAG, TAG]:`.
 pub(crate) struct Head {
     start: usize,
+    end: usize,
+    /// The property's name.
     pub(crate) name: Name,
     requirements: Vec<String>,
 }
 
 impl<F> Property<F> {
-    /// Adds it to those that are declared before, whose names are others.
+    /// Adds it to the properties that are declared before; an error if one of them has its name.
     pub(crate) fn add_to(self, known: &mut Vec<Self>) -> Parsed<()> {
         if known.iter().any(|property| property.name.text == self.name.text) {
             let message = format!("a second property `{}`", self.name.text);
@@ -316,10 +322,9 @@ impl<F> Property<F> {
         Ok(())
     }
 
-    /// The property as it is written in `text`.
+    /// The property as it is written in `text`, the one that it was read from.
     pub(crate) fn declared(&self, text: &str) -> DeclaredProperty {
-        let text = text.get(self.span.clone()).unwrap_or_default();
-        let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
+        let formula = text.get(self.formula_span.clone()).unwrap_or_default();
         DeclaredProperty {
             name: self.name.text.clone(),
             requirements: self.requirements.clone(),
@@ -329,22 +334,22 @@ impl<F> Property<F> {
 }
 
 impl Scanner<'_> {
-    /// `name [TAG, TAG]:`
+    /// Reads `name [TAG, TAG]:`.
     pub(crate) fn property_head(&mut self) -> Parsed<Head> {
         self.skip_blanks()?;
         let start = self.position;
         let name = self.word("a property's name")?;
         let requirements = self.requirements()?;
         self.expect(":")?;
-        Ok(Head { start, name, requirements })
+        Ok(Head { start, end: self.position, name, requirements })
     }
 
-    /// A property's end behind its formula.
+    /// Reads the `;` behind a property's formula, and returns the whole property.
     pub(crate) fn property_end<F>(&mut self, head: Head, formula: F) -> Parsed<Property<F>> {
-        let Head { start, name, requirements } = head;
-        let span = start..self.position;
+        let Head { start, end, name, requirements } = head;
+        let (span, formula_span) = (start..self.position, end..self.position);
         self.expect(";")?;
-        Ok(Property { name, requirements, formula, span })
+        Ok(Property { name, requirements, formula, formula_span, span })
     }
 
     /// `[REQ-1, REQ-2]`, or empty.
@@ -367,7 +372,7 @@ impl Scanner<'_> {
         Ok(tags)
     }
 
-    /// A number of steps.
+    /// Reads a number of steps, 1 to 1000.
     pub(crate) fn steps(&mut self) -> Parsed<u32> {
         self.skip_blanks()?;
         let rest = self.rest();
