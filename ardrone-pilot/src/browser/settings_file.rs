@@ -12,25 +12,29 @@ use crate::text_file;
 /// The `pilot.toml` that the page changes.
 #[derive(Debug, Clone)]
 pub struct SettingsFile {
-    /// Its path; it need not exist.
+    /// Its path. The file need not exist: it has the defaults then.
     pub path: PathBuf,
     /// Whether the program was started with it.
     pub is_used: bool,
     /// Whether a fleet names it, for all of its vehicles: then nothing in it may be one vehicle's.
     pub is_shared: bool,
-    /// The settings that are in effect, of the command line too.
+    /// The settings that are in effect, those of the command line among them.
     pub in_effect: Settings,
 }
 
-/// Why settings are not shown or changed.
+/// Why settings are not shown or not changed.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ChangeError {
+    /// The request is no JSON object of sections with values.
     #[error("settings are changed as an object of sections with values: {0}")]
     Meaningless(String),
+    /// The file is invalid, or would be with the values.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The settings cannot be written as TOML.
     #[error("settings cannot be written as TOML: {0}")]
     Written(#[from] toml::ser::Error),
+    /// The file with this name cannot be read or written.
     #[error("{0}: {1}")]
     File(String, io::Error),
 }
@@ -48,10 +52,11 @@ impl SettingsFile {
         }
     }
 
-    /// Every setting with its value in the file and the one in effect.
+    /// Every setting with its help, range and default, its value in the file, and the one in effect. A file that does not exist
+    /// has the defaults.
     ///
     /// # Errors
-    /// [`ChangeError`] if the file cannot be read.
+    /// [`ChangeError`] if the file cannot be read, or is invalid.
     pub(super) fn json(&self) -> Result<Value, ChangeError> {
         let written = Settings::parse(&self.name(), &self.text()?)?.described()?;
         let in_effect = self.in_effect.described()?;
@@ -77,14 +82,23 @@ impl SettingsFile {
         }))
     }
 
-    /// Writes other values, `{"fence": {"radius_m": 4}}`, whole or not at all.
+    /// Writes other values, given as JSON such as `{"fence": {"radius_m": 4}}`, whole or not at all. They are in effect
+    /// when the program is started with the file.
     ///
     /// # Errors
     /// [`ChangeError`] if they cannot be used, or the file cannot be written.
     pub(super) fn change(&self, text: &str) -> Result<(), ChangeError> {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
-        let changed = with_changes(&self.name(), &self.text()?, &changes)?;
+        let text = self.text()?;
+        if text.contains(char::REPLACEMENT_CHARACTER) {
+            let error = io::Error::new(
+                io::ErrorKind::InvalidData,
+                "it is not UTF-8, and would not stay as it is",
+            );
+            return Err(ChangeError::File(self.name(), error));
+        }
+        let changed = with_changes(&self.name(), &text, &changes)?;
         if self.is_shared {
             Settings::parse(&self.name(), &changed)?.for_all(&self.name())?;
         }
@@ -117,5 +131,22 @@ mod tests {
         file(true).change(r#"{"fence":{"radius_m":2}}"#).unwrap();
         file(false).change(own).unwrap();
         assert!(fs::read_to_string(&path).unwrap().contains("name = \"x\""));
+    }
+
+    #[test]
+    fn what_cannot_be_written_again_as_it_was_is_not_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pilot.toml");
+        let text = b"[fence]\nradius_m = 3 # Stra\xdfe\n";
+        fs::write(&path, text).unwrap();
+        let file = SettingsFile {
+            path: path.clone(),
+            is_used: true,
+            is_shared: false,
+            in_effect: Settings::default(),
+        };
+        let error = file.change(r#"{"fence":{"radius_m":2}}"#).unwrap_err().to_string();
+        assert!(error.contains("not UTF-8"), "{error}");
+        assert_eq!(fs::read(&path).unwrap(), text);
     }
 }

@@ -3,6 +3,7 @@
 use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
+use super::fence::Fence;
 use super::{DECLARED, Settings, SettingsError};
 
 /// A setting with everything that is known of it.
@@ -12,13 +13,13 @@ pub struct Described {
     pub section: String,
     /// Its name there.
     pub name: String,
-    /// What it is for, with its unit.
+    /// What it is for, with its unit; if it has no text of its own, that of the setting before it.
     pub help: String,
-    /// Least and largest number.
+    /// Least and largest number; `None` if it has no such range.
     pub range: Option<[f64; 2]>,
-    /// Its default; `None` if it stands in place of another one.
+    /// Its default; `None` if it stands in place of another setting.
     pub default: Option<Value>,
-    /// Its value.
+    /// Its value in these settings.
     pub value: Value,
 }
 
@@ -37,7 +38,6 @@ impl Settings {
                 (of(&values).unwrap_or_default(), of(&defaults).unwrap_or_default());
             let place = |name: &str| declared.iter().position(|value| value.name == name);
             let mut names: Vec<&String> = values.keys().collect();
-            // One that is not declared stands in place of the last one.
             names.sort_by_key(|name| place(name).unwrap_or(usize::MAX));
             let mut help = String::new();
             for name in names {
@@ -86,6 +86,9 @@ pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, S
                 .to_string()
                 .parse()
                 .map_err(|error: toml_edit::TomlError| refused(error.to_string()))?;
+            if let Some(other) = Fence::replaced_by(section, name) {
+                table.remove(other);
+            }
             match table.get_mut(name).and_then(toml_edit::Item::as_value_mut) {
                 Some(old) => {
                     // The comment behind it.
@@ -145,6 +148,19 @@ mod tests {
             with_changes("p", "", &changes("[drone]\ngps = true\n")).unwrap(),
             "[drone]\ngps = true\n"
         );
+    }
+
+    #[test]
+    fn a_circle_and_a_polygon_replace_each_other() {
+        let polygon = "[fence]\npolygon_m = [[-2, -2], [2, -2], [0, 2]]\n";
+        let circle = "[fence]\nradius_m = 4\n";
+        for (from, to) in [(polygon, circle), (circle, polygon)] {
+            let changed = with_changes("p", from, &changes(to)).unwrap();
+            assert_eq!(changed.parse::<Table>().unwrap(), changes(to), "{changed}");
+        }
+        let all = Settings::parse("p", polygon).unwrap().described().unwrap();
+        let polygon = all.iter().find(|setting| setting.name == "polygon_m").unwrap();
+        assert!(polygon.help.contains("corners"), "{polygon:?}");
     }
 
     #[test]

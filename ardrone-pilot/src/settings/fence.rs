@@ -12,11 +12,13 @@ const FLOOR_M: [f64; 2] = [0.1, 3.0];
 const CEILING_M: [f64; 2] = [0.5, 100.0];
 const RADIUS_M: [f64; 2] = [0.5, 200.0];
 
-/// Where the drone may fly.
+/// Where the drone may fly: between two heights, and inside a border around the start, or around the origin of a room.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub(crate) struct Fence {
+    /// The lowest target, in metres above the floor.
     pub(super) floor_m: f64,
+    /// The highest target, in metres above the floor.
     pub(super) ceiling_m: f64,
     border: Border,
 }
@@ -58,17 +60,32 @@ impl Fence {
                 ],
                 range: Some(RADIUS_M),
             },
+            Value {
+                name: "polygon_m",
+                comments: &[
+                    " In place of `radius_m`: 3 to 32 corners of a polygon around the start, right and forward of it, in their order",
+                    " along the border. Metres.",
+                ],
+                range: None,
+            },
         ],
     );
 
-    /// This one with other values.
+    /// The value in whose place this one stands: of a circle and a polygon only one is written.
+    pub(super) fn replaced_by(section: &str, name: &str) -> Option<&'static str> {
+        match (section, name) {
+            ("fence", "radius_m") => Some("polygon_m"),
+            ("fence", "polygon_m") => Some("radius_m"),
+            _ => None,
+        }
+    }
+
+    /// This one with the values of a section `[fence]` that are given.
     pub(super) fn with(&self, changes: &toml::Table) -> Result<Self, toml::de::Error> {
         let serialized = toml::Table::try_from(self);
         let mut table = serialized.map_err(serde::de::Error::custom)?;
-        // Of a circle and a polygon one stands in place of the other.
-        if changes.contains_key("radius_m") || changes.contains_key("polygon_m") {
-            table.remove("radius_m");
-            table.remove("polygon_m");
+        for other in changes.keys().filter_map(|name| Self::replaced_by("fence", name)) {
+            table.remove(other);
         }
         table.extend(changes.clone());
         table.try_into()

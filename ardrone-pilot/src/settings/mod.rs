@@ -1,7 +1,7 @@
 //! `pilot.toml`: settings for flights that need other values than the defaults.
 //!
-//! [`Settings::sample`] documents every setting. Missing settings keep their defaults; a file with an invalid
-//! one is refused as a whole, with all reasons.
+//! [`Settings::sample`] documents every setting. Missing settings keep their defaults. A file with an invalid one is refused as
+//! a whole: at the first that cannot be read, otherwise with all that are out of range.
 
 mod editor;
 mod fence;
@@ -26,10 +26,10 @@ pub use self::tags::GivenTag;
 use self::tags::Tags;
 pub(crate) use self::version::{Version, read_versioned};
 
-/// The version of `pilot.toml` that is read.
+/// The version of the format of `pilot.toml` that is read.
 pub const VERSION: u32 = 1;
 
-/// Content of a `pilot.toml`.
+/// Content of a `pilot.toml`, each value in the unit that the file gives it in.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -50,20 +50,21 @@ pub struct Settings {
 /// Why a `pilot.toml` cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SettingsError {
-    /// Invalid TOML, unknown key or wrong type; with line and column.
+    /// Invalid TOML, another version of the format, an unknown key, or a value that cannot be read; in a file with line and
+    /// column.
     #[error("{path}: {message}")]
     Syntax {
-        /// The file.
+        /// The file, or what else the values come from.
         path: String,
         /// The problem and its place.
         message: String,
     },
-    /// Values out of range.
+    /// Values out of range, that do not fit together, or that each vehicle of a fleet has for itself.
     #[error("{path}: {}", .reasons.join("; "))]
     Values {
-        /// The file.
+        /// The file, or what else the values come from.
         path: String,
-        /// One reason for each value.
+        /// What is wrong, in a sentence for each value.
         reasons: Vec<String>,
     },
     /// What is to be changed is no section, no setting of one, or has a wrong type.
@@ -97,7 +98,8 @@ impl Settings {
     /// Parses a `pilot.toml`; `path` is for messages.
     ///
     /// # Errors
-    /// [`SettingsError`] with all reasons.
+    /// [`SettingsError::Syntax`] with the first place that cannot be read, otherwise [`SettingsError::Values`] with all
+    /// reasons.
     pub fn parse(path: &str, text: &str) -> Result<Self, SettingsError> {
         let settings: Self =
             read_versioned::<_, VERSION>(text).map_err(|error| SettingsError::Syntax {
@@ -139,15 +141,15 @@ impl Settings {
     /// Converts to TOML without comments.
     ///
     /// # Errors
-    /// Never: tables of numbers, strings and arrays of numbers can be written as TOML.
+    /// Never: tables of numbers, flags, strings and arrays of numbers can be written as TOML.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
 
-    /// Uses tags on the floor, and takes these for surveyed.
+    /// Uses tags on the floor, and adds these to the surveyed ones.
     ///
     /// # Errors
-    /// [`SettingsError::Values`] if they do not fit together, or with those of the settings.
+    /// [`SettingsError::Values`] if they do not fit together, or with those of the settings. They are added nevertheless.
     pub fn use_tags(&mut self, surveyed: &[GivenTag]) -> Result<(), SettingsError> {
         self.tags.detect = true;
         for tag in surveyed {
@@ -160,15 +162,16 @@ impl Settings {
         Err(SettingsError::Values { path: "--tag".to_owned(), reasons })
     }
 
-    /// The tags that are used and surveyed; nothing if tags are not used.
+    /// The surveyed tags; `None` if tags are not used.
     pub fn surveyed_tags(&self) -> Option<Vec<SurveyedTag>> {
         self.tags.detect.then(|| self.tags.surveyed().map(SurveyedTag::from).collect())
     }
 
-    /// Settings of all vehicles of a fleet.
+    /// Takes over what all vehicles of a fleet share: the section `[fence]`, and the least distance from other vehicles,
+    /// across, in metres. `None` leaves a value as it is.
     ///
     /// # Errors
-    /// [`SettingsError::Values`] if they are out of range.
+    /// [`SettingsError::Syntax`] if the fence cannot be read, [`SettingsError::Values`] if the settings are out of range then.
     pub(crate) fn share(
         &mut self,
         fence: Option<&toml::Table>,
@@ -210,7 +213,8 @@ impl Settings {
         Err(SettingsError::Values { path: path.to_owned(), reasons })
     }
 
-    /// Settings of one vehicle of a fleet.
+    /// Takes over what is one vehicle's: its name, the number of its MAVLink system, where it starts, and the systems of
+    /// the others.
     pub(crate) fn give(
         &mut self,
         name: VehicleName,
@@ -222,7 +226,7 @@ impl Settings {
         (self.room.start, self.room.peers) = (start, peers);
     }
 
-    /// Which frequency the drone's ultrasound has.
+    /// Sets the frequency that the drone's ultrasound is asked for.
     pub(crate) fn set_ultrasound(&mut self, frequency: UltrasoundFrequency) {
         self.drone.ultrasound = frequency;
     }
@@ -246,7 +250,7 @@ impl Settings {
         [vehicle, fence, room, drone, video, station, delays, airframe, estimator, controller]
     }
 
-    /// The vehicle's configuration.
+    /// The vehicle's configuration with these settings; heights of plans are counted from `z_origin`.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
         let mut config = VehicleConfig::default();
         config.limits.z_origin = z_origin;

@@ -16,16 +16,20 @@ const SEPARATION_M: [f64; 2] = [0.8, 20.0];
 /// Standard deviation of a start that is measured with a tape.
 const USUAL_DEVIATION_M: f64 = 0.05;
 
-/// The room.
+/// The room that vehicles share, for one of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Room {
+    /// Where this one starts.
     pub(super) start: SurveyedStart,
+    /// Least distance from other vehicles, across, in metres.
     pub(super) separation_m: f64,
+    /// Numbers of the other vehicles' MAVLink systems.
     pub(super) peers: Vec<u8>,
 }
 
-/// A start as it is written: nothing, or three to five numbers.
+/// A start as it is written: nothing, or three to five numbers, of which the file says what they are. Within it is where the
+/// drone stands in the frame of the room; `None` if the room begins there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub(crate) struct SurveyedStart(pub(crate) Option<Start>);

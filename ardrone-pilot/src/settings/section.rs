@@ -92,13 +92,14 @@ pub(super) use section;
 pub(super) trait Section<C> {
     /// Puts the values into their places.
     fn apply(&self, config: &mut C);
-    /// Reasons why values are out of range.
+    /// Reasons why values are out of range, one for each such number.
     fn out_of_range(&self) -> Vec<String>;
 }
 
 /// What is known of a value.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Value {
+    /// Its name in the section.
     pub(super) name: &'static str,
     /// Lines of its documentation; none if it is documented with the value before it.
     pub(super) comments: &'static [&'static str],
@@ -106,7 +107,7 @@ pub(super) struct Value {
     pub(super) range: Option<[f64; 2]>,
 }
 
-/// A section's name, and its values.
+/// A section's name, and what is known of its values, in the order of the file.
 pub(super) type Declared = (&'static str, &'static [Value]);
 
 /// A value as it is written in the file; `T` is its type in the configuration.
@@ -182,7 +183,7 @@ impl Setting<Duration> for Milliseconds {
     }
 }
 
-/// A bit rate in kbit/s; zero for none.
+/// A bit rate in kbit/s; zero asks for none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(super) struct BitRate(u32);
@@ -213,11 +214,13 @@ impl Setting<f64> for Degrees {
     }
 }
 
-/// The navdata's rate, by name.
+/// The rate of navdata, by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Navdata {
+    /// 15 packets a second.
     Demo,
+    /// 200 packets a second, with all options.
     Full,
 }
 
@@ -237,7 +240,7 @@ impl Setting<NavdataRate> for Navdata {
     }
 }
 
-/// The ultrasound's frequency, by the drone's number for it; zero for none.
+/// The ultrasound's frequency, by the drone's number for it: 7 is 22.22 Hz, 8 is 25 Hz; zero asks for none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub(crate) struct UltrasoundFrequency(Option<Ultrasound>);
@@ -277,7 +280,7 @@ impl Setting<Option<Ultrasound>> for UltrasoundFrequency {
 
 /// The numbers of a setting that has a range, which holds for each of them.
 pub(super) trait Numbers {
-    /// As they are written.
+    /// The numbers in the unit of the file.
     fn numbers(&self) -> impl Iterator<Item = f64>;
 }
 
@@ -318,7 +321,7 @@ impl Numbers for Degrees {
     }
 }
 
-/// The reason why a number is refused, if it is.
+/// The reason why a number is refused; `None` if it lies in the range. NaN does not.
 pub(super) fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String> {
     let (from, to) = (Figures(*range.start()), Figures(*range.end()));
     // NaN is out of range too.

@@ -32,7 +32,7 @@ section! {
         read_back: bool = [read_back],
         /// Whether the position by a flight recorder is asked for. It is shown and recorded; nothing is flown by it.
         gps: bool = [gps],
-        /// Frequency of the ultrasound: 7 (22.22 Hz) or 8 (25 Hz); 0 leaves it as it is, which is 8 after a start. Drones within 3 m of
+        /// Frequency of the ultrasound: 7 (22.22 Hz) or 8 (25 Hz); 0 leaves it as it is, in factory state 8. Drones within 3 m of
         /// each other need different ones.
         ultrasound: UltrasoundFrequency = [ultrasound],
     }

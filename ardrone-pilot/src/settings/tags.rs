@@ -28,11 +28,15 @@ section! {
     }
 }
 
+/// In which direction of the drone's turn the reported orientation of a tag grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Orientation {
+    /// Not known: it is found in flight.
     Find,
+    /// When the drone turns clockwise, seen from above.
     Clockwise,
+    /// When the drone turns counterclockwise, seen from above.
     Counterclockwise,
 }
 
@@ -54,12 +58,12 @@ impl Setting<Option<OrientationSign>> for Orientation {
     }
 }
 
-/// A tag as it is given on the command line: `X,Y` or `X,Y,HEADING`.
+/// A tag as it is given on the command line, `X,Y` or `X,Y,HEADING`, and in the same order in a `pilot.toml`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenTag {
-    /// Right and forward of the start, in metres.
+    /// Right and forward of the start, or of the origin of a room: -100 to 100 m.
     pub place_m: [f64; 2],
-    /// Clockwise from the drone's heading at the start, in degrees, if it was measured.
+    /// Clockwise from the drone's heading at the start, or from forward in a room: -360° to 360°. `None` if it was not measured.
     pub heading_deg: Option<f64>,
 }
 
@@ -97,16 +101,18 @@ impl FromStr for GivenTag {
 }
 
 impl Tags {
+    /// Adds a surveyed tag, and uses tags.
     pub(super) fn add(&mut self, tag: &GivenTag) {
         self.detect = true;
         self.surveyed.push(tag.place_m.into_iter().chain(tag.heading_deg).collect());
     }
 
+    /// The surveyed tags, without those that are invalid.
     pub(super) fn surveyed(&self) -> impl Iterator<Item = GivenTag> + '_ {
         self.surveyed.iter().filter_map(|numbers| GivenTag::from_numbers(numbers))
     }
 
-    /// Nothing if tags are not used.
+    /// What the estimator is to know of tags; `None` if tags are not used.
     pub(super) fn config(&self) -> Option<TagConfig> {
         let mut config = TagConfig::default();
         self.apply(&mut config);
@@ -116,13 +122,14 @@ impl Tags {
         self.detect.then_some(config)
     }
 
+    /// Reasons why the values are out of range, or the surveyed tags invalid, too many or too near to each other.
     pub(super) fn reasons_against(&self) -> Vec<String> {
         /// Tags nearer to each other than this are confused.
         const APART_M: f64 = 1.5;
         let mut reasons = self.out_of_range();
         let wrong = self.surveyed.iter().filter(|tag| GivenTag::from_numbers(tag).is_none());
         reasons.extend(wrong.map(|tag| {
-            format!("tags.surveyed has {tag:?}: it must be [right, forward] or [right, forward, heading]")
+            format!("tags.surveyed has {tag:?}: it must be [right, forward] or [right, forward, heading], at most 100 m away and 360° turned")
         }));
         if self.surveyed.len() > MAX_TAGS {
             reasons.push(format!("tags.surveyed has more than {MAX_TAGS} tags"));

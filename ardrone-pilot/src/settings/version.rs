@@ -3,13 +3,16 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-/// `version = OURS`; any other is refused, because nothing else in such a file can be relied on.
+/// `version = OURS`, which may be left out; any other is refused, because nothing else in such a file can be relied on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "i64", into = "u32")]
 pub(crate) struct Version<const OURS: u32>;
 
 /// Reads the text of a file whose field `version` is of this type. Another version is told before all else: the keys of such a
 /// file may be unknown.
+///
+/// # Errors
+/// The first place that cannot be read, with line and column.
 pub(crate) fn read_versioned<T: DeserializeOwned, const OURS: u32>(
     text: &str,
 ) -> Result<T, toml::de::Error> {

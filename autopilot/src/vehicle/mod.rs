@@ -95,7 +95,7 @@ pub enum NavdataRate {
 pub enum Ultrasound {
     /// 22.22 Hz.
     Slow,
-    /// 25 Hz, as after a start.
+    /// 25 Hz, as in factory state.
     Fast,
 }
 
