@@ -80,6 +80,8 @@ roll, pitch or clock, in metres, degrees and seconds. `for` gives the duration i
   +8    dead altitude at 1.5 for 3   constant at that value or zero, with its usual noise
   +8    lie velocity-right 0.5 for 3 offset; `lie velocity RIGHT FORWARD` is two in one
   +8    ramp heading 5 for 3         offset that grows by this each second
+  +8    noise pitch 4 for 3          added noise with this standard deviation
+  +8    gain velocity-right 2 for 3  factor of what is measured
   +8    nan pitch for 3              NaN; not possible for altitude and clock
   +8    late altitude 0.5 for 3      additional delay in seconds
   +8    state ultrasound-deaf for 3  set a bit of the state word

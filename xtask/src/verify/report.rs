@@ -321,7 +321,7 @@ const LIMITS: &str = "
 - The agent has no clock. Its percepts include the time that it has been taking off, approaching, holding a position and
   descending, and in the proofs each may have any value in any step. `a_take_off_ends` therefore means: in a step in which
   the percept exceeds 10 s, the agent descends. That these times grow with the clock, and are not reset
-  by a momentary arrival or blindness, is implemented in 40 lines (`Activity` in `autopilot/src/agent.rs`),
+  by a momentary arrival or blindness, is implemented by `Activity` (`autopilot/src/agent/activity.rs`),
   and tested.
   A clock of its own with a deadline of the take-off's goal was tried in place of the percept, and does not keep the properties:
   a deadline passes to the goals that follow, so that it ends a landing that has begun (`landing_goes_on`); with an integer
