@@ -104,7 +104,7 @@ const CUSTOM: [&str; 5] = [
 const APPLICATION: &str = "custom:application_id";
 const DEFAULT_ID: &str = "00000000";
 
-/// A drone's configuration.
+/// The simulated drone's configuration: the value of each key, as text in the drone's units.
 #[derive(Debug, Clone)]
 pub(crate) struct ConfigurationStore {
     values: BTreeMap<&'static str, String>,
@@ -117,8 +117,9 @@ impl Default for ConfigurationStore {
 }
 
 impl ConfigurationStore {
-    /// Sets a key like the firmware, which silently ignores unknown keys, unreadable values and read-only
-    /// keys.
+    /// Sets a key like the firmware, which silently ignores unknown keys, unreadable values, read-only keys, and with the
+    /// default application those that need one of their own. A limit in use and the one that is kept for indoors or outdoors
+    /// follow each other; `control:outdoor` brings the other set into use.
     pub(crate) fn set(&mut self, key: &str, value: &str) {
         let Some((key, kind, _)) = KEYS.iter().find(|(known, ..)| *known == key) else { return };
         let valid = match kind {
@@ -162,11 +163,13 @@ impl ConfigurationStore {
         }
     }
 
+    /// The value of a key as text; `None` for an unknown key.
     pub(crate) fn text(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
     }
 
-    /// Bit rate of the video. That the drone adapts it to its link is not modelled: it is the greatest then.
+    /// Bit rate of the video, 250 to 4000 kbit/s. That the drone adapts it to its link is not modelled: it is the greatest
+    /// then.
     #[cfg(feature = "video")]
     pub(crate) fn video_kbit_s(&self) -> u32 {
         const MANUAL: &str = "2";
@@ -176,16 +179,18 @@ impl ConfigurationStore {
         rate.unwrap_or_default().clamp(250, 4000)
     }
 
+    /// Whether a flag is set; an unknown key is not.
     pub(crate) fn is_set(&self, key: &str) -> bool {
         self.text(key) == Some("TRUE")
     }
 
-    /// A number; keys of numbers only ever contain numbers.
+    /// A number in the drone's unit: millimetres, radians, and their rates. Keys of numbers only ever contain numbers; any
+    /// other key is 0.
     pub(crate) fn number(&self, key: &str) -> f64 {
         self.text(key).and_then(|value| value.parse().ok()).unwrap_or(0.0)
     }
 
-    /// The dump for the control port.
+    /// The dump for the control port: each key with its value, a matrix over several lines, and a NUL at the end.
     pub(crate) fn dump(&self) -> String {
         let mut dump = String::new();
         for (key, ..) in KEYS {
@@ -195,7 +200,7 @@ impl ConfigurationStore {
         dump
     }
 
-    /// The list of identities for the control port.
+    /// The list of identities for the control port, one of each kind, with a NUL at the end.
     pub(crate) fn identities(&self) -> String {
         let mut list = String::new();
         for (section, key) in [

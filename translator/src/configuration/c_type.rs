@@ -6,7 +6,8 @@ use crate::reserved::is_c_word;
 use crate::syntax::ast::Name;
 use crate::types::{C_NUMBERS, CType, TypeKind};
 
-/// Refuses types that C does not allow for a parameter, a result or a field.
+/// Refuses what is no type, and types that the translator does not know or that C does not allow for a parameter, a result or
+/// a field. `words` are the words of the type and its stars.
 pub(super) fn check_type(words: &[Name]) -> Parsed<()> {
     let (Some(first), Some(last)) = (words.first(), words.last()) else { return Ok(()) };
     let span = first.span.start..last.span.end;
@@ -75,6 +76,7 @@ fn is_number(words: &[&str]) -> bool {
     KNOWN.contains(&text.as_str()) || rarer.contains(&text.as_str())
 }
 
+/// The type with these words, which [`check_type`] has accepted.
 pub(super) fn c_type(words: &[Name]) -> CType {
     let words: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
     CType::named(&words.join(" "))

@@ -12,6 +12,7 @@ use crate::types::{CType, TypeKind};
 const MOST_PARAMETERS: usize = 100;
 
 impl Parser<'_> {
+    /// `type name(types);`: a basic action or function. `updateBeliefs`, which is always declared, is only checked.
     pub(super) fn basic(&mut self) -> Parsed<()> {
         let start = self.scanner.position;
         let (result, name) = self.typed_name()?;
@@ -28,7 +29,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `name { type field; .. };`
+    /// `name { type field; .. };`: a struct type.
     pub(super) fn structure(&mut self) -> Parsed<()> {
         let name = self.scanner.word("a struct type")?;
         self.scanner.expect("{")?;
@@ -56,7 +57,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `name: action, action;` or `name: all class but action, class;`
+    /// `name: action, action;` or `name: all class but action, class;`: a class of actions.
     pub(super) fn class(&mut self) -> Parsed<()> {
         let name = self.scanner.word("a class of actions")?;
         self.scanner.expect(":")?;
@@ -87,7 +88,7 @@ impl Parser<'_> {
         Ok(AllBut { class, but: self.names(first, LEFT_OUT)? })
     }
 
-    /// Names behind commas.
+    /// `first` and the names that follow it, each behind a comma.
     pub(super) fn names(&mut self, first: Name, expected: &str) -> Parsed<Vec<Name>> {
         let mut names = vec![first];
         self.scanner.skip_blanks()?;
@@ -131,7 +132,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// The trace function is declared as a basic action.
+    /// Declares the trace function, if the settings name one, as a basic action.
     pub(super) fn declare_trace(&mut self) {
         let Some(name) = self.configuration.settings.trace.clone() else { return };
         if !name.text.starts_with(is_word_start) || !name.text.chars().all(is_word) {
@@ -171,6 +172,7 @@ impl Parser<'_> {
         }
     }
 
+    /// `name(types);`: a belief or a goal.
     pub(super) fn predicate(&mut self) -> Parsed<()> {
         let start = self.scanner.position;
         let name = self.scanner.word("a belief or a goal")?;
@@ -199,6 +201,7 @@ impl Parser<'_> {
         Ok((c_type(&words), name))
     }
 
+    /// The types between parentheses; none for `()` and `(void)`.
     pub(super) fn parameters(&mut self) -> Parsed<Vec<CType>> {
         self.scanner.expect("(")?;
         let mut parameters = Vec::new();

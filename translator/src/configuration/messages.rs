@@ -17,7 +17,7 @@ const NO_PEERS: [&str; 6] = ["self", "any", "true", "false", "not", "mod"];
 const MOST_WAITING: usize = 64;
 
 impl Parser<'_> {
-    /// `peers { leader, wingman };`, behind the brace.
+    /// `peers { leader, wingman };`, from behind the brace on.
     pub(super) fn peers(&mut self) -> Parsed<()> {
         let first = self.scanner.word("a peer")?;
         for name in self.names(first, "a peer")? {
@@ -46,7 +46,8 @@ impl Parser<'_> {
         self.scanner.expect("}")
     }
 
-    /// `tell at(double, double) from any;`, `achieve inspect(double, double) from leader, 4;`
+    /// `tell at(double, double) from any;`, `achieve inspect(double, double) from leader, 4;`. The senders are found later, as
+    /// the section `peers` may follow.
     pub(super) fn message(&mut self) -> Parsed<()> {
         let word = self.scanner.word("`tell` or `achieve`")?;
         let start = word.span.start;
@@ -106,7 +107,8 @@ impl Parser<'_> {
         })
     }
 
-    /// Checks what is said, and declares what it is about.
+    /// Finds the senders of all messages, checks the sections `peers` and `messages`, and declares each belief and goal that
+    /// messages are about.
     pub(super) fn resolve_messages(&mut self) {
         if self.configuration.peers.len() > MOST_PEERS {
             let place = self.configuration.peers[MOST_PEERS].span.clone();

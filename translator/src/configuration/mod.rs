@@ -1,6 +1,7 @@
 //! The configuration: the environment of the agent, and the output files.
 //!
-//! The format is the paper's: named sections in braces, declarations that end in semicolons.
+//! The format is that of the paper "From AgentSpeak to C" (`agents/paper.asl` names its authors), with more sections: each
+//! has a name and braces, and its declarations end in semicolons.
 //!
 //! ```text
 //! settings { input = pilot.asl; output = pilot.c; header = pilot.h; basics = actions.h; };
@@ -43,50 +44,51 @@ pub use version::MessagesVersion;
 use crate::syntax::ast::{Name, Operator, Performative, TriggerKind};
 use crate::types::CType;
 
-/// A parsed configuration.
+/// A parsed configuration. Places in it are byte ranges of its text.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Configuration {
     /// File names and options.
     pub settings: Settings,
-    /// Preprocessor lines, copied to the generated headers.
+    /// The `#include` lines, copied to the generated headers.
     pub includes: Vec<String>,
     /// Struct types.
     pub structs: Vec<Struct>,
-    /// Basic actions and functions.
+    /// Basic actions and functions, which the environment provides; the trace function of the settings is one of them.
     pub basics: Vec<Basic>,
     /// Actions that are counted together, such as those that send a command.
     pub classes: Vec<ActionClass>,
-    /// The agents that talk with each other, this one among them.
+    /// The agents that talk with each other, this one among them. Their order gives their numbers, from 0.
     pub peers: Vec<Name>,
     /// What they say.
     pub messages: Vec<Message>,
-    /// Beliefs and goals with the types of their arguments.
+    /// Beliefs and goals with the types of their arguments, those that only `messages` declares among them.
     pub predicates: Vec<Predicate>,
     /// Beliefs with a `set_b` function.
     pub settables: Vec<Name>,
-    /// Settables whose change raises `+b`.
+    /// Settables whose change raises the event `+b`.
     pub perceived: Vec<Name>,
     /// Events that the environment can raise.
     pub triggerables: Vec<ExternalTrigger>,
-    /// External events that abort the pending event, by priority.
+    /// External events that abort the pending event; the first one has priority.
     pub preemptive: Vec<ExternalTrigger>,
     /// Properties that must hold in every environment.
     pub properties: Vec<Property>,
 }
 
 impl Configuration {
-    /// The fields of a struct, by the name of its type.
+    /// The fields of a struct, by the name of its type; none if no such struct is declared.
     pub(crate) fn fields(&self, name: &str) -> &[(Name, CType)] {
         let declared = self.structs.iter().find(|declared| declared.name.text == name);
         declared.map_or(&[], |declared| &declared.fields)
     }
 
-    /// The number of a peer.
+    /// The number of a peer, from 0; `None` if there is no such peer.
     pub fn peer(&self, name: &str) -> Option<usize> {
         self.peers.iter().position(|peer| peer.text == name)
     }
 
-    /// What is said of a belief or a goal.
+    /// The declaration of what peers say of a belief or a goal, if there is one. `untell` is declared by `tell`, `unachieve` by
+    /// `achieve`.
     pub fn message(&self, performative: Performative, name: &str) -> Option<&Message> {
         let declared = performative.declared();
         let is_it =
@@ -94,7 +96,7 @@ impl Configuration {
         self.messages.iter().find(is_it)
     }
 
-    /// The actions that send messages: `send_tell_at(peer, double, double)`.
+    /// The actions that send messages: `send_tell_at(peer, double, double)`, `send_untell_at(peer)`.
     pub fn sending(&self) -> Vec<Basic> {
         let mut actions = Vec::new();
         for message in &self.messages {
@@ -115,7 +117,7 @@ impl Configuration {
         actions
     }
 
-    /// The functions for messages that arrive: `receive_tell_at`.
+    /// The functions for messages that arrive, each with its C name (`receive_tell_at`), what it does and its declaration.
     pub fn receiving(&self) -> Vec<(String, Performative, &Message)> {
         let mut functions = Vec::new();
         for message in &self.messages {
@@ -129,7 +131,7 @@ impl Configuration {
         functions
     }
 
-    /// Whether the plans of a trigger are told who caused its event.
+    /// Whether the plans of a trigger are told who caused its event, the agent itself or a peer.
     pub(crate) fn is_sourced(&self, kind: TriggerKind, name: &str) -> bool {
         match kind {
             TriggerKind::Belief => self.message(Performative::Tell, name).is_some(),
@@ -171,37 +173,37 @@ fn plain_path(folder: &str, file: &str) -> String {
     parts.join("/")
 }
 
-/// The `settings` section.
+/// The section `settings`. File names are relative to the folder of the outputs, except that of the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
-    /// The AgentSpeak source, relative to the configuration.
+    /// The AgentSpeak source, relative to the folder of the configuration.
     pub input: String,
-    /// The C file, relative to the output folder.
+    /// The C file.
     pub output: String,
     /// The header with the agent's interface.
     pub header: String,
     /// The header with the basic actions that the environment provides.
     pub basics: String,
-    /// The Rust bindings, if requested.
+    /// The file with the Rust bindings, if requested.
     pub rust: Option<Name>,
     /// The trace matrix, written under this name with `.csv` and `.json`, if requested.
     pub matrix: Option<String>,
-    /// The trace function, which is called with each chosen plan, if requested.
+    /// The trace function, which is called with the number of each chosen plan, if requested.
     pub trace: Option<Name>,
-    /// The clock function in milliseconds, for agents that wait.
+    /// The function that returns the time in milliseconds, for agents that wait, have deadlines or ask for an age.
     pub clock: Option<Name>,
     /// Whether the agent's state is static or passed in.
     pub instance: Instance,
-    /// Capacity of the inbox for external events.
+    /// Number of external events that may wait, 1 to 64; 1 by default.
     pub inbox: u32,
-    /// Whether deferred goals share the queue of external events, the paper's `max_events`.
+    /// Whether deferred goals share the queue of external events, as the paper's `max_events` has it.
     pub queue: bool,
-    /// Place of each setting's value.
+    /// Place of each setting's value, by the name of the setting.
     pub places: BTreeMap<String, Span>,
 }
 
 impl Settings {
-    /// The output files, each with its setting.
+    /// The output files, each with the setting that names it; `matrix` names two.
     pub fn outputs(&self) -> Vec<(&'static str, String)> {
         let mut outputs = vec![
             ("output", self.output.clone()),
@@ -215,8 +217,8 @@ impl Settings {
         outputs
     }
 
-    /// Prefix of every external symbol in this form: with the state passed in, several agents can be linked
-    /// into one program.
+    /// Prefix of every external symbol if the state is stored like this: with the state passed in, several agents can be
+    /// linked into one program.
     pub(crate) fn symbol_prefix(&self, instance: Instance) -> String {
         if instance == Instance::Static {
             return String::new();
@@ -276,7 +278,7 @@ pub struct Basic {
     pub result: CType,
     /// Types of its parameters.
     pub parameters: Vec<CType>,
-    /// The whole declaration.
+    /// The whole declaration; of an action that sends a message, that of the message.
     pub span: Span,
 }
 
@@ -287,7 +289,7 @@ pub struct ActionClass {
     pub name: Name,
     /// The basic actions.
     pub actions: Vec<Name>,
-    /// How they are written, unless one by one.
+    /// How they are written if not one by one.
     pub all_but: Option<AllBut>,
 }
 
@@ -303,29 +305,29 @@ pub struct AllBut {
 /// A message that peers may send: `tell at(double, double) from any;`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Message {
-    /// [`Performative::Tell`], which can be taken back, or [`Performative::Achieve`], which can, too.
+    /// [`Performative::Tell`] or [`Performative::Achieve`]; each can be taken back.
     pub performative: Performative,
     /// The belief or goal.
     pub name: Name,
     /// The types of its arguments.
     pub parameters: Vec<CType>,
-    /// Who may send it, as numbers of peers in their order.
+    /// Who may send it, as numbers of peers in ascending order.
     pub senders: Vec<usize>,
     /// The senders as they are written; none for `any`.
     pub named: Vec<Name>,
-    /// How many goals of one sender may wait.
+    /// How many goals of one sender may wait, 1 to 64. 1 for what is told, of which the newest counts.
     pub room: usize,
     /// The whole declaration.
     pub span: Span,
 }
 
-/// `send_tell_at`: the action that sends a message.
+/// Name of the action that sends a message: `send_tell_at`.
 pub(crate) fn sending(performative: Performative, name: &str) -> String {
     format!("send_{}_{name}", performative.name())
 }
 
 impl Message {
-    /// The types of what arrives or is sent: the other peer, and the arguments.
+    /// The types of what arrives or is sent: the other peer, and for `tell` and `achieve` the arguments.
     pub fn said(&self, performative: Performative) -> Vec<CType> {
         let arguments = self.parameters.iter().filter(|_| performative.has_arguments());
         std::iter::once(CType::peer()).chain(arguments.cloned()).collect()
@@ -339,7 +341,7 @@ pub struct Predicate {
     pub name: Name,
     /// The types of its arguments.
     pub parameters: Vec<CType>,
-    /// The whole declaration.
+    /// The whole declaration, in `types` or in `messages`.
     pub span: Span,
 }
 

@@ -5,7 +5,8 @@ use diagnostic::{Diagnostic, is_printable};
 use super::{Configuration, Settings};
 use crate::code::Code;
 
-/// Output names must be usable in `#include`, stay inside the output folder, and be distinct.
+/// Output names must be usable in `#include`, stay inside the output folder, and be distinct; none may be a file of the proofs
+/// or an included one. Returns an error for each that is not.
 pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
     let outputs = configuration.settings.outputs();
     let included = configuration.included_files();

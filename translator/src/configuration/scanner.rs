@@ -6,22 +6,27 @@ use super::ExternalTrigger;
 use crate::code::Code;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 
-/// The version of the language of configurations and systems that is read: `version 1;`.
+/// The version of the language of configurations and systems that is read and may be written in them: `version 1;`.
 pub const VERSION: u32 = 1;
 
+/// What was read, or the error at its place.
 pub(crate) type Parsed<T> = Result<T, Diagnostic>;
 
-/// A position in a text.
+/// A text of declarations, and how far it is read.
 pub(crate) struct Scanner<'a> {
+    /// The whole text.
     pub(crate) text: &'a str,
+    /// What is read next, in bytes from the start of the text.
     pub(crate) position: usize,
 }
 
 impl<'a> Scanner<'a> {
+    /// The text that is not read yet.
     pub(crate) fn rest(&self) -> &'a str {
         &self.text[self.position..]
     }
 
+    /// Reads `symbol` if the text goes on with it, and returns whether it does.
     pub(crate) fn take(&mut self, symbol: &str) -> bool {
         let found = self.rest().starts_with(symbol);
         if found {
@@ -30,11 +35,14 @@ impl<'a> Scanner<'a> {
         found
     }
 
+    /// Reads `symbol`, which must be next but for blanks.
     pub(crate) fn expect(&mut self, symbol: &str) -> Parsed<()> {
         self.skip_blanks()?;
         if self.take(symbol) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
     }
 
+    /// Reads a word, which must be next but for blanks: a letter or `_`, and then letters, digits or `_`. `expected` is what
+    /// an error says in its place.
     pub(crate) fn word(&mut self, expected: &str) -> Parsed<Name> {
         self.skip_blanks()?;
         if !self.rest().starts_with(is_word_start) {
@@ -46,6 +54,7 @@ impl<'a> Scanner<'a> {
         Ok(Name { text: self.text[span.clone()].to_owned(), span })
     }
 
+    /// Reads blanks and comments, `// ..` and `/* .. */`; an error if one is not closed.
     pub(crate) fn skip_blanks(&mut self) -> Parsed<()> {
         loop {
             let trimmed = self.rest().trim_start();
@@ -67,7 +76,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// `version 1;`, which may stand before all sections. Nothing of a text of another version can be relied on.
+    /// Reads `version 1;`, which may stand before all sections. Another version is an error, because nothing in its text can be
+    /// relied on.
     pub(crate) fn version(&mut self) -> Parsed<()> {
         let begin = self.position;
         // A comment that is not closed is told when sections are looked for.
@@ -94,7 +104,7 @@ impl<'a> Scanner<'a> {
             .help(format!("this program reads version {VERSION}")))
     }
 
-    /// Continues behind the next `;`, or before the `}` that ends the section.
+    /// Continues behind the next `;`, before the `}` that ends the section, or at the end of the text.
     pub(crate) fn skip_entry(&mut self) {
         match self.rest().find([';', '}']) {
             Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
@@ -103,6 +113,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// Reads `+!goal`, `+belief` or `-belief`, which must be next.
     pub(crate) fn trigger(&mut self) -> Parsed<ExternalTrigger> {
         let start = self.position;
         let operator = if self.take("+") {
@@ -129,6 +140,7 @@ impl<'a> Scanner<'a> {
         Ok(ExternalTrigger { operator, kind, name, source: None, span })
     }
 
+    /// The error that `expected` should stand here, and what does.
     pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {
         let word = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
         match self.rest().chars().next() {
@@ -152,15 +164,17 @@ fn span_of(position: usize, character: char) -> Span {
     position..position + character.len_utf8()
 }
 
+/// Whether a word may begin with it.
 pub(crate) fn is_word_start(character: char) -> bool {
     character.is_ascii_alphabetic() || character == '_'
 }
 
+/// Whether it may be in a word.
 pub(crate) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
-/// A section of this name is none of the `known` ones.
+/// The error that a section of this name is none of the `known` ones.
 pub(crate) fn unknown_section(name: Name, known: &[&str]) -> Diagnostic {
     let help = if name.text == "version" {
         "the version stands before all sections".to_owned()
@@ -170,7 +184,7 @@ pub(crate) fn unknown_section(name: Name, known: &[&str]) -> Diagnostic {
     Code::UnknownSection.at(format!("unknown section `{}`", name.text), name.span).help(help)
 }
 
-/// Help for an unknown word.
+/// Help for an unknown word: the `known` one that resembles it, or all of them.
 pub(crate) fn advice(word: &str, known: &[&str]) -> String {
     match diagnostic::closest(word, known.iter().copied()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),

@@ -6,7 +6,7 @@ use super::scanner::{Parsed, advice};
 use crate::code::Code;
 use crate::syntax::ast::Name;
 
-/// The settings of a configuration.
+/// The names of the settings of a configuration.
 pub const SETTINGS: [&str; 11] = [
     "trace",
     "clock",
@@ -24,6 +24,7 @@ pub const SETTINGS: [&str; 11] = [
 const MAX_INBOX: u32 = 64;
 
 impl Parser<'_> {
+    /// `name = value;`
     pub(super) fn setting(&mut self) -> Parsed<()> {
         let key = self.scanner.word("a setting")?;
         self.scanner.expect("=")?;
@@ -116,6 +117,7 @@ impl Parser<'_> {
         Ok(Name { text: text.to_owned(), span })
     }
 
+    /// Reports the settings that are missing and have no default.
     pub(super) fn check_settings(&mut self) {
         let settings = &self.configuration.settings;
         for (key, value) in [

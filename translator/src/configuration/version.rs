@@ -10,7 +10,8 @@ use crate::types::{CType, TypeKind};
 /// the same sections but another form do not understand each other either.
 const FORM: &str = "messages of asl2c, form 1\n";
 
-/// A number for the sections `peers` and `messages`: agents with the same one understand each other.
+/// A number for the sections `peers` and `messages`, with the structs that messages have: agents with the same one understand
+/// each other.
 ///
 /// It finds agents that were translated from other sections by mistake. It is no proof of who has sent a message: 64 bits of
 /// FNV-1a need no other crate, but somebody who wants to can find other sections with the same number.
@@ -25,16 +26,18 @@ impl fmt::Display for MessagesVersion {
 }
 
 impl Configuration {
-    /// The version of the sections `peers` and `messages`; none if there are no messages.
+    /// The version of the sections `peers` and `messages`; `None` if there are no messages.
     pub fn messages_version(&self) -> Option<MessagesVersion> {
         let is_silent = self.messages.is_empty();
         (!is_silent).then(|| MessagesVersion(fnv_1a(&self.canonical_messages())))
     }
 
-    /// The sections `peers` and `messages`, the same text for all ways to write them.
+    /// The sections `peers` and `messages`, the same text for all ways to write them: a line for the form, one for the peers,
+    /// and one for each message.
     ///
     /// The order of the peers counts, because a peer is its number. The order of the messages and of their senders does
-    /// not, nor `any` or the names of all, nor which C name of a type is used.
+    /// not, nor `any` or the names of all, nor by which C name a type of numbers is called. Of a struct its name and its
+    /// fields count.
     pub fn canonical_messages(&self) -> String {
         let mut lines: Vec<String> =
             self.messages.iter().map(|message| self.canonical_message(message)).collect();
