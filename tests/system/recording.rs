@@ -10,7 +10,7 @@ use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
 use autopilot::outcome::Outcome;
-use autopilot::plan::ZOrigin;
+use autopilot::plan::{Commands, ZOrigin};
 use autopilot::vehicle::{
     FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig, VehicleName,
 };
@@ -486,6 +486,23 @@ fn a_refused_flight_is_not_reported_as_a_good_one() {
     assert_ne!(flight.outcome.exit_status(), 0);
     let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
     assert!(page.contains("<p class=\"outcome warn\">"), "{}", flight.outcome);
+}
+
+/// As the vehicle counts them: of a mission that was loaded in flight and never flown none is done.
+#[test]
+fn steps_are_those_of_the_mission_that_was_there_last() {
+    let (second, mission) = (Duration::from_secs(1), "takeoff\ngoto 0 0 0 0\n");
+    for (order, done) in [
+        (OperatorOrder::Load(plan(mission)), 0),
+        (OperatorOrder::Append(Commands::parse("more", mission).unwrap()), 2),
+    ] {
+        let orders = vec![(9 * second, order), (9 * second, OperatorOrder::Land)];
+        let (flight, file) = recorded(SQUARE, &Simulation { orders, ..Simulation::default() });
+        let steps = flight.report.steps;
+        assert_eq!(flight.report.steps_done, done);
+        let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
+        assert!(page.contains(&format!("<b>{done} of {steps}</b>steps done")), "{done} of {steps}");
+    }
 }
 
 #[test]

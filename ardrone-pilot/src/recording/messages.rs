@@ -67,7 +67,7 @@ pub struct Mission {
     pub steps: Vec<String>,
 }
 
-/// How far the mission has come, when a step begins and when it is done.
+/// How far the mission has come, when it changes, when a step begins and when it is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
     /// Its steps up to the last one that was carried out.

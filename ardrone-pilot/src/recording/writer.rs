@@ -177,9 +177,10 @@ impl<W: Write + Seek> LogWriter<W> {
     fn telemetry(&mut self, at: Duration, telemetry: &Telemetry) -> Result<(), McapError> {
         let level = |is_good| if is_good { Level::Info } else { Level::Warning };
         match telemetry {
-            Telemetry::Mission { name, steps, .. } => {
+            Telemetry::Mission { name, steps, steps_done, .. } => {
                 let steps = steps.iter().map(|step| step.text.clone()).collect();
-                self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })
+                self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })?;
+                self.message(topic::PROGRESS, at, &Progress { steps_done: *steps_done })
             }
             Telemetry::Event(event) => {
                 let steps_done = match event {

@@ -65,6 +65,8 @@ pub enum Telemetry {
         id: Option<MissionId>,
         /// All its steps.
         steps: Vec<Step>,
+        /// How many of them are done, in the current or last flight.
+        steps_done: usize,
     },
     /// A target of the mission was reached and held for its stay time.
     Waypoint(Waypoint),
@@ -174,6 +176,7 @@ impl Vehicle {
                 name: self.mission.name().to_owned(),
                 id: self.mission.id(),
                 steps: self.mission.steps().to_vec(),
+                steps_done: self.flight.report().steps_done,
             });
         }
         if let Some(event) = self.events.pop_front() {
