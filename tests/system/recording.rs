@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::time::Duration;
 
 use ardrone_pilot::flight::{Beside, Flight};
-use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter, Recorder};
+use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter, Progress, Recorder};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
@@ -492,15 +492,22 @@ fn a_refused_flight_is_not_reported_as_a_good_one() {
 #[test]
 fn steps_are_those_of_the_mission_that_was_there_last() {
     let (second, mission) = (Duration::from_secs(1), "takeoff\ngoto 0 0 0 0\n");
-    for (order, done) in [
-        (OperatorOrder::Load(plan(mission)), 0),
-        (OperatorOrder::Append(Commands::parse("more", mission).unwrap()), 2),
+    // A command that is carried out at once is done with the step behind it.
+    let slow = "takeoff\nsetSpeed 0.1\nsetStayTime 0\ngoto 0 1 0 0\nland\n";
+    for (flown, order, done) in [
+        (SQUARE, OperatorOrder::Load(plan(mission)), 0),
+        (SQUARE, OperatorOrder::Append(Commands::parse("more", mission).unwrap()), 2),
+        (slow, OperatorOrder::Hold, 1),
     ] {
         let orders = vec![(9 * second, order), (9 * second, OperatorOrder::Land)];
-        let (flight, file) = recorded(SQUARE, &Simulation { orders, ..Simulation::default() });
+        let (flight, file) = recorded(flown, &Simulation { orders, ..Simulation::default() });
         let steps = flight.report.steps;
         assert_eq!(flight.report.steps_done, done);
-        let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
+        let mut log = Log::read(&file).unwrap();
+        // What comes to the drone on the ground is for the next flight.
+        let (end, _) = *log.entries.last().unwrap();
+        log.entries.push((end, Entry::Progress(Progress { steps_done: 0, steps: 9 })));
+        let page = report::html(&log, &[]).unwrap();
         assert!(page.contains(&format!("<b>{done} of {steps}</b>steps done")), "{done} of {steps}");
     }
 }

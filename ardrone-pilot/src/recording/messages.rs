@@ -67,11 +67,13 @@ pub struct Mission {
     pub steps: Vec<String>,
 }
 
-/// How far the mission has come, when it changes, when a step begins and when it is done.
+/// How far the mission has come: when it changes, when a step is done, and at the end of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
     /// Its steps up to the last one that was carried out.
     pub steps_done: usize,
+    /// All its steps.
+    pub steps: usize,
 }
 
 /// A position and a heading in the world, which begins at the drone's start, or is the frame that a fleet's vehicles share.

@@ -50,6 +50,8 @@ pub struct LogWriter<W: Write + Seek> {
     start_ns: u64,
     sequence: u32,
     ticks: u64,
+    /// Steps of the mission.
+    steps: usize,
     /// Time of the last decoded navdata message.
     decoded: Option<Duration>,
     /// Time of the last message about tags, and their numbers.
@@ -110,6 +112,7 @@ impl<W: Write + Seek> LogWriter<W> {
             start_ns,
             sequence: 0,
             ticks: 0,
+            steps: 0,
             decoded: None,
             tags: None,
             video: None,
@@ -178,27 +181,29 @@ impl<W: Write + Seek> LogWriter<W> {
         let level = |is_good| if is_good { Level::Info } else { Level::Warning };
         match telemetry {
             Telemetry::Mission { name, steps, steps_done, .. } => {
+                self.steps = steps.len();
                 let steps = steps.iter().map(|step| step.text.clone()).collect();
                 self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })?;
-                self.message(topic::PROGRESS, at, &Progress { steps_done: *steps_done })
+                self.progress(at, *steps_done)
             }
             Telemetry::Event(event) => {
-                let steps_done = match event {
-                    FlightEvent::StepStarted { step } => Some(*step),
-                    FlightEvent::StepDone { step } => Some(step + 1),
-                    _ => None,
-                };
-                if let Some(steps_done) = steps_done {
-                    self.message(topic::PROGRESS, at, &Progress { steps_done })?;
+                if let FlightEvent::StepDone { step } = event {
+                    self.progress(at, step + 1)?;
                 }
                 self.log(at, level(!event.warns()), EVENT, &event.to_string())
             }
-            Telemetry::Ended(outcome, _) => {
+            Telemetry::Ended(outcome, report) => {
+                self.steps = report.steps;
+                self.progress(at, report.steps_done)?;
                 let is_good = *outcome == Outcome::Completed;
                 self.log(at, level(is_good), OUTCOME, &outcome.to_string())
             }
             Telemetry::Waypoint(_) | Telemetry::Readiness(_) | Telemetry::Status(_) => Ok(()),
         }
+    }
+
+    fn progress(&mut self, at: Duration, steps_done: usize) -> Result<(), McapError> {
+        self.message(topic::PROGRESS, at, &Progress { steps_done, steps: self.steps })
     }
 
     /// Writes the known tags once a second, and at once when a tag becomes known or is no longer.

@@ -253,14 +253,19 @@ impl Decision {
     }
 }
 
-/// As the vehicle counts them at the end of a part ([`FlightReport`](autopilot::vehicle::FlightReport)): steps up to the
+/// As the vehicle counts them for the flight in a part ([`FlightReport`](autopilot::vehicle::FlightReport)): steps up to the
 /// last one that was carried out in it, and all, of the plan with which the recording begins or of the last mission.
 fn steps_done(log: &Log, (from, until): (Duration, Duration), of_plan: usize) -> [usize; 2] {
     let mut done = [0, of_plan];
     for (at, entry) in log.entries.iter().take_while(|(at, _)| *at <= until) {
         match entry {
-            Entry::Mission(mission) => done[1] = mission.steps.len(),
-            Entry::Progress(progress) if *at >= from => done[0] = progress.steps_done,
+            // What was done of it then was so in the flight before.
+            Entry::Mission(mission) if *at <= from => done[1] = mission.steps.len(),
+            Entry::Progress(progress) if *at > from => {
+                done = [progress.steps_done, progress.steps];
+            }
+            // What follows is for the next flight.
+            Entry::Outcome { .. } if *at > from => break,
             _ => {}
         }
     }
