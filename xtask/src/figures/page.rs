@@ -126,7 +126,7 @@ const INTRODUCTION: &str = "\
 `cargo xtask figures` measures what is promised of the system, and compares it with [the last record](figures.json); it fails
 if anything was lost. Continuous integration runs it for every change, but for the first build, which takes minutes and is measured for a
 release. A loss that is meant is recorded with the change that causes it (`cargo xtask figures --record`), and seen in its difference; so is a
-gain, which is told, so that it is not lost again unseen. What differs by noise alone keeps its recorded value: small losses, each
+gain, which is told, so that it is not lost again unseen. What is worse by noise alone keeps its recorded value: small losses, each
 recorded for the next one to be compared with, would add up unseen.
 
 What is a loss depends on how much a figure varies where nothing has changed. Flights are simulated: they are the same each time. Instructions are

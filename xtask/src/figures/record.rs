@@ -61,13 +61,16 @@ impl Record {
         if note.is_empty() { version.clone() } else { format!("{version} ({note})") }
     }
 
-    /// Takes over the figures of other parts than these, and those that differ by noise alone: small losses, each recorded for
-    /// the next one to be compared with, would add up unseen.
+    /// Takes over the figures of other parts than these, and those that are now worse by no more than noise: small losses, each
+    /// recorded for the next one to be compared with, would add up unseen.
     pub(super) fn keep_of(&mut self, last: &Self, parts: &[Part]) {
         for (key, before) in &last.figures.0 {
             let Some((kind, _)) = split(key) else { continue };
             let now = self.figures.0.get(key);
-            let is_noise = |now: &f64| kind.is_judged() && kind.change(*before, *now).is_none();
+            let is_noise = |now: &f64| {
+                kind.worse(*before, *now)
+                    .is_some_and(|worse| (0.0..=kind.noise_of(*before)).contains(&worse))
+            };
             if !parts.contains(&kind.part) || now.is_some_and(is_noise) {
                 self.figures.0.insert(key.clone(), *before);
             }
@@ -118,17 +121,18 @@ impl Record {
 }
 
 impl Kind {
-    fn is_judged(&self) -> bool {
-        self.loss != Loss::NotJudged
+    /// By how much a figure is worse than before; `None` if that is not judged.
+    fn worse(&self, before: f64, now: f64) -> Option<f64> {
+        match self.loss {
+            Loss::More => Some(now - before),
+            Loss::Less => Some(before - now),
+            Loss::NotJudged => None,
+        }
     }
 
     /// A word for a difference beyond noise.
     fn change(&self, before: f64, now: f64) -> Option<&'static str> {
-        let worse = match self.loss {
-            Loss::More => now - before,
-            Loss::Less => before - now,
-            Loss::NotJudged => return None,
-        };
+        let worse = self.worse(before, now)?;
         // What is no number is a loss.
         if worse.is_nan() || worse > self.noise_of(before) {
             Some("LOST")
@@ -245,9 +249,12 @@ mod tests {
         let mut second = record(&[(TIME, "rec", 50.9)]);
         second.keep_of(&first, PARTS);
         assert!(record(&[(TIME, "rec", 51.8)]).against(&second, PARTS).1);
-        let mut gain = record(&[(TIME, "rec", 45.0)]);
-        gain.keep_of(&first, PARTS);
-        assert_eq!(gain, record(&[(TIME, "rec", 45.0)]));
+        // A gain is kept, however small: what was lost on a bad day is compared with no longer.
+        for better in [45.0, 49.5] {
+            let mut gain = record(&[(TIME, "rec", better)]);
+            gain.keep_of(&first, PARTS);
+            assert_eq!(gain, record(&[(TIME, "rec", better)]));
+        }
     }
 
     #[test]
