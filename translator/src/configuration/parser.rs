@@ -303,10 +303,12 @@ mod tests {
 
     #[test]
     fn a_formula_is_told_as_it_is_written() {
-        let text = format!("{MINIMAL} properties {{ p /* a: b */ [A-1] : exactly_one(f); }};");
+        let text = format!(
+            "{MINIMAL} properties {{ p /* a: b */ [A-1] : // of all\n exactly_one( /* ; */ f ) // end\n; }};"
+        );
         let (configuration, diagnostics) = parse(&text);
         assert_eq!(diagnostics, []);
-        assert_eq!(configuration.properties[0].declared(&text).formula, "exactly_one(f)");
+        assert_eq!(configuration.properties[0].declared(&text).formula, "exactly_one( f )");
     }
 
     #[test]

@@ -322,9 +322,23 @@ impl<F> Property<F> {
         Ok(())
     }
 
-    /// The property as it is written in `text`, the one that it was read from.
+    /// The property as it is written in `text`, the one that it was read from, without comments: in one line they would hide
+    /// what follows.
     pub(crate) fn declared(&self, text: &str) -> DeclaredProperty {
-        let formula = text.get(self.formula_span.clone()).unwrap_or_default();
+        let text = text.get(..self.formula_span.end).unwrap_or_default();
+        let mut scanner = Scanner { text, position: self.formula_span.start };
+        let mut formula = String::new();
+        loop {
+            let from = scanner.position;
+            // They were closed when the formula was read.
+            _ = scanner.skip_blanks();
+            if scanner.position > from {
+                formula.push(' ');
+            }
+            let Some(next) = scanner.rest().chars().next() else { break };
+            scanner.position += next.len_utf8();
+            formula.push(next);
+        }
         DeclaredProperty {
             name: self.name.text.clone(),
             requirements: self.requirements.clone(),
