@@ -6,18 +6,24 @@ use std::path::Path;
 
 /// Largest one, larger than any plan that can be flown.
 const MOST_BYTES: u64 = 1 << 20;
-const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+/// The mark with which some editors begin a text.
+pub(crate) const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// Reads a text; one without an end, as `/dev/zero`, is an error. Invalid UTF-8 becomes replacement characters, which no
-/// valid text contains. The mark with which some editors begin a text is none of it.
+/// Reads a text, without a [`BYTE_ORDER_MARK`]. Invalid UTF-8 becomes replacement characters.
 pub(crate) fn read(path: &Path) -> io::Result<String> {
+    let bytes = read_bytes(path)?;
+    let text = bytes.strip_prefix(BYTE_ORDER_MARK.as_bytes()).unwrap_or(&bytes);
+    Ok(String::from_utf8_lossy(text).into_owned())
+}
+
+/// Reads a text as it is stored; one without an end, as `/dev/zero`, is an error.
+pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MOST_BYTES {
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, "it has more than 1 MiB"));
     }
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
-    Ok(String::from_utf8_lossy(text).into_owned())
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
 use crate::settings::{Described, Settings, SettingsError, with_changes};
-use crate::text_file;
+use crate::text_file::{self, BYTE_ORDER_MARK};
 
 /// The `pilot.toml` that the page changes.
 #[derive(Debug, Clone)]
@@ -90,24 +90,35 @@ impl SettingsFile {
     pub(super) fn change(&self, text: &str) -> Result<(), ChangeError> {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
-        let text = self.text()?;
-        if text.contains(char::REPLACEMENT_CHARACTER) {
-            let error = io::Error::new(
-                io::ErrorKind::InvalidData,
-                "it is not UTF-8, and would not stay as it is",
-            );
-            return Err(ChangeError::File(self.name(), error));
-        }
-        let changed = with_changes(&self.name(), &text, &changes)?;
+        let system = |error| ChangeError::File(self.name(), error);
+        let bytes = match text_file::read_bytes(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            bytes => bytes.map_err(system)?,
+        };
+        let text = std::str::from_utf8(&bytes).map_err(|_| {
+            let why = "it is not UTF-8, and would not stay as it is";
+            system(io::Error::new(io::ErrorKind::InvalidData, why))
+        })?;
+        let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+        let mark = if text.len() < bytes.len() { BYTE_ORDER_MARK } else { "" };
+        let changed = with_changes(&self.name(), text, &changes)?;
         if self.is_shared {
             Settings::parse(&self.name(), &changed)?.for_all(&self.name())?;
         }
-        let system = |error| ChangeError::File(self.name(), error);
-        let mut draft = self.path.clone().into_os_string();
-        draft.push(".new");
-        fs::write(&draft, changed).map_err(system)?;
-        fs::rename(&draft, &self.path).map_err(system)
+        replace(&self.path, &[mark, &changed].concat()).map_err(system)
     }
+}
+
+/// Writes a file anew, whole or not at all: what a link leads to, with its permissions.
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let mut draft = path.clone().into_os_string();
+    draft.push(format!(".{}.new", std::process::id()));
+    fs::write(&draft, text)?;
+    if let Ok(there) = fs::metadata(&path) {
+        fs::set_permissions(&draft, there.permissions())?;
+    }
+    fs::rename(&draft, &path)
 }
 
 #[cfg(test)]
@@ -148,5 +159,28 @@ mod tests {
         let error = file.change(r#"{"fence":{"radius_m":2}}"#).unwrap_err().to_string();
         assert!(error.contains("not UTF-8"), "{error}");
         assert_eq!(fs::read(&path).unwrap(), text);
+    }
+
+    /// A link stays one, and who may read the file may still; its first mark stays, too.
+    #[cfg(unix)]
+    #[test]
+    fn a_file_stays_what_it_was() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link] = ["all.toml", "pilot.toml"].map(|name| folder.path().join(name));
+        fs::write(&file, "\u{feff}[fence]\nradius_m = 3\n").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(&file, &link).unwrap();
+        let settings = SettingsFile {
+            path: link.clone(),
+            is_used: true,
+            is_shared: false,
+            in_effect: Settings::default(),
+        };
+        settings.change(r#"{"fence":{"radius_m":2}}"#).unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read_to_string(&file).unwrap(), "\u{feff}[fence]\nradius_m = 2\n");
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no draft is left");
     }
 }

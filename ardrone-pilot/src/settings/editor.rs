@@ -1,7 +1,7 @@
 //! What people must know to change a `pilot.toml`, and the change of a file of theirs.
 
 use toml::{Table, Value};
-use toml_edit::DocumentMut;
+use toml_edit::{DocumentMut, Item, Key, TableLike};
 
 use super::fence::Fence;
 use super::{DECLARED, Settings, SettingsError};
@@ -87,9 +87,9 @@ pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, S
                 .parse()
                 .map_err(|error: toml_edit::TomlError| refused(error.to_string()))?;
             if let Some(other) = Fence::replaced_by(section, name) {
-                table.remove(other);
+                rename(table, other, name);
             }
-            match table.get_mut(name).and_then(toml_edit::Item::as_value_mut) {
+            match table.get_mut(name).and_then(Item::as_value_mut) {
                 Some(old) => {
                     // The comment behind it.
                     written.decor_mut().clone_from(old.decor());
@@ -99,9 +99,30 @@ pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, S
             }
         }
     }
-    let changed = document.to_string();
+    let mut changed = document.to_string();
+    // The library ends each line in its own way.
+    if text.contains("\r\n") && text.lines().count() == text.matches("\r\n").count() {
+        changed = changed.replace('\n', "\r\n");
+    }
     Settings::parse(path, &changed)?;
     Ok(changed)
+}
+
+/// Gives a value another name, at its place and with its comments.
+fn rename(table: &mut dyn TableLike, from: &str, to: &str) {
+    let names: Vec<Key> = table.iter().filter_map(|(name, _)| table.key(name).cloned()).collect();
+    let all: Vec<(Key, Item)> =
+        names.into_iter().filter_map(|key| Some((key.clone(), table.remove(&key)?))).collect();
+    for (key, item) in all {
+        let key = if key.get() == from { renamed(&key, to) } else { key };
+        _ = table.entry_format(&key).or_insert(item);
+    }
+}
+
+fn renamed(key: &Key, to: &str) -> Key {
+    Key::new(to)
+        .with_leaf_decor(key.leaf_decor().clone())
+        .with_dotted_decor(key.dotted_decor().clone())
 }
 
 #[cfg(test)]
@@ -156,11 +177,31 @@ mod tests {
         let circle = "[fence]\nradius_m = 4\n";
         for (from, to) in [(polygon, circle), (circle, polygon)] {
             let changed = with_changes("p", from, &changes(to)).unwrap();
-            assert_eq!(changed.parse::<Table>().unwrap(), changes(to), "{changed}");
+            assert_eq!(changed, to);
         }
+        let hall = "[fence]\n# our hall\nradius_m = 4 # by Ann\nceiling_m = 2 # low\n";
+        let changed = with_changes("p", hall, &changes(polygon)).unwrap();
+        assert_eq!(
+            changed,
+            hall.replace("radius_m = 4", "polygon_m = [[-2, -2], [2, -2], [0, 2]]")
+        );
+        let inline =
+            with_changes("p", "fence = { radius_m = 4, ceiling_m = 2 }\n", &changes(polygon));
+        assert!(
+            inline.unwrap().starts_with("fence = { polygon_m = [[-2, -2], [2, -2], [0, 2]], ceil")
+        );
+        let dotted = with_changes("p", "fence.radius_m = 4 # a\n", &changes(polygon)).unwrap();
+        assert_eq!(dotted, "fence.polygon_m = [[-2, -2], [2, -2], [0, 2]] # a\n");
         let all = Settings::parse("p", polygon).unwrap().described().unwrap();
         let polygon = all.iter().find(|setting| setting.name == "polygon_m").unwrap();
         assert!(polygon.help.contains("corners"), "{polygon:?}");
+    }
+
+    #[test]
+    fn lines_end_as_they_did() {
+        let text = "# Our hall.\r\n[fence]\r\nradius_m = 3 # to the wall\r\n";
+        let wider = with_changes("p", text, &changes("[fence]\nradius_m = 4\n")).unwrap();
+        assert_eq!(wider, text.replace('3', "4"));
     }
 
     #[test]
