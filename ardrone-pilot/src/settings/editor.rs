@@ -86,7 +86,8 @@ pub fn with_changes(path: &str, text: &str, changes: &Table) -> Result<String, S
                 .to_string()
                 .parse()
                 .map_err(|error: toml_edit::TomlError| refused(error.to_string()))?;
-            if let Some(other) = Fence::replaced_by(section, name) {
+            let other = Fence::replaced_by(section, name);
+            if let Some(other) = other.filter(|other| table.contains_key(other)) {
                 rename(table, other, name);
             }
             match table.get_mut(name).and_then(Item::as_value_mut) {
