@@ -44,11 +44,11 @@ impl SettingsFile {
         self.path.display().to_string()
     }
 
-    /// The text of the file; nothing if there is none.
-    fn text(&self) -> Result<String, ChangeError> {
-        match text_file::read(&self.path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
-            text => text.map_err(|error| ChangeError::File(self.name(), error)),
+    /// What was read of the file; nothing if there is none.
+    fn there<T: Default>(&self, read: io::Result<T>) -> Result<T, ChangeError> {
+        match read {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(T::default()),
+            read => read.map_err(|error| ChangeError::File(self.name(), error)),
         }
     }
 
@@ -58,7 +58,8 @@ impl SettingsFile {
     /// # Errors
     /// [`ChangeError`] if the file cannot be read, or is invalid.
     pub(super) fn json(&self) -> Result<Value, ChangeError> {
-        let written = Settings::parse(&self.name(), &self.text()?)?.described()?;
+        let written = Settings::parse(&self.name(), &self.there(text_file::read(&self.path))?)?
+            .described()?;
         let in_effect = self.in_effect.described()?;
         let value = |described: &Described| {
             let same = |other: &&Described| {
@@ -91,10 +92,7 @@ impl SettingsFile {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
         let system = |error| ChangeError::File(self.name(), error);
-        let bytes = match text_file::read_bytes(&self.path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-            bytes => bytes.map_err(system)?,
-        };
+        let bytes = self.there(text_file::read_bytes(&self.path))?;
         let text = std::str::from_utf8(&bytes).map_err(|_| {
             let why = "it is not UTF-8, and would not stay as it is";
             system(io::Error::new(io::ErrorKind::InvalidData, why))
@@ -125,14 +123,16 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 mod tests {
     use super::*;
 
+    fn file(path: &Path) -> SettingsFile {
+        let in_effect = Settings::default();
+        SettingsFile { path: path.to_owned(), is_used: true, is_shared: false, in_effect }
+    }
+
     #[test]
     fn what_is_one_vehicles_is_not_written_into_the_settings_of_all() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("all.toml");
-        let file = |is_shared| {
-            let in_effect = Settings::default();
-            SettingsFile { path: path.clone(), is_used: true, is_shared, in_effect }
-        };
+        let file = |is_shared| SettingsFile { is_shared, ..file(&path) };
         let own = r#"{"vehicle":{"name":"x","system":9},"room":{"start":[1,1,0],"peers":[2]}}"#;
         let error = file(true).change(own).unwrap_err().to_string();
         for key in ["vehicle.name", "vehicle.system", "room.start", "room.peers"] {
@@ -150,13 +150,7 @@ mod tests {
         let path = folder.path().join("pilot.toml");
         let text = b"[fence]\nradius_m = 3 # Stra\xdfe\n";
         fs::write(&path, text).unwrap();
-        let file = SettingsFile {
-            path: path.clone(),
-            is_used: true,
-            is_shared: false,
-            in_effect: Settings::default(),
-        };
-        let error = file.change(r#"{"fence":{"radius_m":2}}"#).unwrap_err().to_string();
+        let error = file(&path).change(r#"{"fence":{"radius_m":2}}"#).unwrap_err().to_string();
         assert!(error.contains("not UTF-8"), "{error}");
         assert_eq!(fs::read(&path).unwrap(), text);
     }
@@ -167,20 +161,14 @@ mod tests {
     fn a_file_stays_what_it_was() {
         use std::os::unix::fs::{PermissionsExt as _, symlink};
         let folder = tempfile::tempdir().unwrap();
-        let [file, link] = ["all.toml", "pilot.toml"].map(|name| folder.path().join(name));
-        fs::write(&file, "\u{feff}[fence]\nradius_m = 3\n").unwrap();
-        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
-        symlink(&file, &link).unwrap();
-        let settings = SettingsFile {
-            path: link.clone(),
-            is_used: true,
-            is_shared: false,
-            in_effect: Settings::default(),
-        };
-        settings.change(r#"{"fence":{"radius_m":2}}"#).unwrap();
+        let [target, link] = ["all.toml", "pilot.toml"].map(|name| folder.path().join(name));
+        fs::write(&target, "\u{feff}[fence]\nradius_m = 3\n").unwrap();
+        fs::set_permissions(&target, fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(&target, &link).unwrap();
+        file(&link).change(r#"{"fence":{"radius_m":2}}"#).unwrap();
         assert!(link.is_symlink());
-        assert_eq!(fs::read_to_string(&file).unwrap(), "\u{feff}[fence]\nradius_m = 2\n");
-        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(fs::read_to_string(&target).unwrap(), "\u{feff}[fence]\nradius_m = 2\n");
+        assert_eq!(fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o600);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no draft is left");
     }
 }
