@@ -507,8 +507,16 @@ fn steps_are_those_of_the_mission_that_was_there_last() {
         // What comes to the drone on the ground is for the next flight.
         let (end, _) = *log.entries.last().unwrap();
         log.entries.push((end, Entry::Progress(Progress { steps_done: 0, steps: 9 })));
-        let page = report::html(&log, &[]).unwrap();
-        assert!(page.contains(&format!("<b>{done} of {steps}</b>steps done")), "{done} of {steps}");
+        let shown = format!("<b>{done} of {steps}</b>steps done");
+        assert!(report::html(&log, &[]).unwrap().contains(&shown), "{shown}");
+        let is_outcome = |(_, entry): &(_, Entry)| matches!(entry, Entry::Outcome { .. });
+        let outcome = log.entries.iter().position(is_outcome).unwrap();
+        let (at, _) = log.entries[outcome];
+        let at_the_end = (at, Entry::Progress(Progress { steps_done: done, steps }));
+        assert!(log.entries[..outcome].contains(&at_the_end), "{shown}");
+        // A log that was cut off has no end.
+        log.entries.retain(|(then, _)| *then < at);
+        assert!(report::html(&log, &[]).unwrap().contains(&shown), "{shown}");
     }
 }
 
