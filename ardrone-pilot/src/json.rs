@@ -113,10 +113,11 @@ fn telemetry(at: Duration, telemetry: &Telemetry, ticks: TickHealth, steps: &[St
                 "command": command,
             })
         }
-        Telemetry::Mission { name, steps, .. } => json!({
+        Telemetry::Mission { name, steps, steps_done, .. } => json!({
             "type": "mission",
             "name": name,
             "steps": steps.iter().map(|step| step.text.as_str()).collect::<Vec<_>>(),
+            "steps_done": steps_done,
         }),
         Telemetry::Readiness(reasons) => json!({
             "type": "ready",

@@ -488,18 +488,21 @@ fn a_refused_flight_is_not_reported_as_a_good_one() {
     assert!(page.contains("<p class=\"outcome warn\">"), "{}", flight.outcome);
 }
 
-/// As the vehicle counts them: of a mission that was loaded in flight and never flown none is done.
+/// As the vehicle counts them: of a mission that was loaded in flight and never flown none is done, and one that was loaded
+/// during the landing is for the next flight.
 #[test]
-fn steps_are_those_of_the_mission_that_was_there_last() {
+fn steps_are_those_of_the_mission_that_was_flown_last() {
     let (second, mission) = (Duration::from_secs(1), "takeoff\ngoto 0 0 0 0\n");
     // A command that is carried out at once is done with the step behind it.
     let slow = "takeoff\nsetSpeed 0.1\nsetStayTime 0\ngoto 0 1 0 0\nland\n";
-    for (flown, order, done) in [
-        (SQUARE, OperatorOrder::Load(plan(mission)), 0),
-        (SQUARE, OperatorOrder::Append(Commands::parse("more", mission).unwrap()), 2),
-        (slow, OperatorOrder::Hold, 1),
+    let append = OperatorOrder::Append(Commands::parse("more", mission).unwrap());
+    for (flown, orders, done) in [
+        (SQUARE, [OperatorOrder::Load(plan(mission)), OperatorOrder::Land], 0),
+        (SQUARE, [OperatorOrder::Land, OperatorOrder::Load(plan(mission))], 2),
+        (SQUARE, [append, OperatorOrder::Land], 2),
+        (slow, [OperatorOrder::Hold, OperatorOrder::Land], 1),
     ] {
-        let orders = vec![(9 * second, order), (9 * second, OperatorOrder::Land)];
+        let orders = orders.map(|order| (9 * second, order)).into();
         let (flight, file) = recorded(flown, &Simulation { orders, ..Simulation::default() });
         let steps = flight.report.steps;
         assert_eq!(flight.report.steps_done, done);

@@ -28,6 +28,8 @@ const EVENTS: usize = 100;
 #[derive(Debug)]
 pub(super) struct Snapshot {
     steps: Vec<Step>,
+    /// They came after the landing, for the next flight.
+    is_for_next: bool,
     limits: FlightLimits,
     vehicle: VehicleName,
     /// All vehicles, and those that the page can show in full.
@@ -58,6 +60,7 @@ impl Snapshot {
         let name = plan.map_or("", Plan::name);
         Self {
             steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
+            is_for_next: false,
             limits: config.limits,
             vehicle: config.name,
             fleet: fleet.to_vec(),
@@ -94,8 +97,9 @@ impl Snapshot {
             }
             Telemetry::Event(_) => self.remember(&object),
             // The page redraws everything.
-            Telemetry::Mission { name, steps, .. } if *steps != self.steps => {
+            Telemetry::Mission { name, steps, steps_done, .. } if *steps != self.steps => {
                 self.steps.clone_from(steps);
+                self.is_for_next = steps_done.is_none();
                 self.name = printable(name).into_owned();
                 self.notes.clear();
                 return self.so_far();
@@ -198,6 +202,7 @@ impl Snapshot {
             "plan": self.name,
             "notes": self.notes,
             "steps": steps,
+            "is_for_next": self.is_for_next,
             "fence": {
                 "text": self.limits.border.to_string(),
                 // To a millimetre: a circle is drawn with many corners.

@@ -181,10 +181,12 @@ impl<W: Write + Seek> LogWriter<W> {
         let level = |is_good| if is_good { Level::Info } else { Level::Warning };
         match telemetry {
             Telemetry::Mission { name, steps, steps_done, .. } => {
-                self.steps = steps.len();
+                let count = steps.len();
                 let steps = steps.iter().map(|step| step.text.clone()).collect();
                 self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })?;
-                self.progress(at, *steps_done)
+                let Some(steps_done) = *steps_done else { return Ok(()) };
+                self.steps = count;
+                self.progress(at, steps_done)
             }
             Telemetry::Event(event) => {
                 if let FlightEvent::StepDone { step } = event {

@@ -45,6 +45,8 @@ pub(super) struct Flight {
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
+    /// The mission was changed when nothing of it could be flown in this flight any more.
+    pub(super) mission_is_for_next: bool,
     /// Shared with whoever was told of the end, which must not ask for memory.
     report: Arc<FlightReport>,
     pub(super) outcome: Option<Outcome>,
@@ -71,6 +73,7 @@ impl Flight {
             cross_checks: CrossChecks::default(),
             target: None,
             asked_at: begins,
+            mission_is_for_next: false,
             report: Arc::default(),
             outcome: None,
         }

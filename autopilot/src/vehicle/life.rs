@@ -105,7 +105,10 @@ pub(super) enum Why {
     /// A drone that was taken over in the air must not be flown on, for these reasons.
     TakeOverRefused(Vec<String>),
     /// The mission was replaced during its last landing.
-    Replaced,
+    Replaced {
+        /// The landing.
+        step: usize,
+    },
     /// The flight has its outcome, and the drone is in the air all the same.
     StillUp,
 }
@@ -116,7 +119,7 @@ impl Why {
         match self {
             Self::GivenUp(reason) => Some(*reason),
             Self::TakeOverRefused(_) => Some(LandingReason::TakeOverRefused),
-            Self::Replaced | Self::StillUp => None,
+            Self::Replaced { .. } | Self::StillUp => None,
         }
     }
 }

@@ -375,9 +375,14 @@ impl Vehicle {
         }
     }
 
-    /// Reserves room for all steps in the report, because a tick must not allocate.
+    /// Reserves room for all steps in the report, because a tick must not allocate. What comes after the landing is for the next
+    /// flight, and this one's report stays what it is.
     fn mission_changed(&mut self) {
         self.pending.mission = true;
+        if self.flight.outcome.is_some() || self.lands() {
+            self.flight.mission_is_for_next = true;
+            return;
+        }
         let steps = self.mission.steps().len();
         let report = self.flight.report_mut();
         report.steps = steps;
@@ -441,7 +446,7 @@ impl Vehicle {
             flight_time: self.flight.report().flight_time_at(now),
             camera: self.camera,
             step: self.life.due().map(|active| active.due.step),
-            steps: self.flight.report().steps,
+            steps: self.mission.steps().len(),
             mission_waits: self.life.manual().pauses_mission(),
             manual: self.life.manual().control(now),
             controls: self.controls.holder(),

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::life::{Departure, Life, Preparation, Why};
+use super::life::{Active, Departure, Life, Preparation, Why};
 use super::readiness::NotReady;
 use super::{FlightEvent, LandingReason, Operator, OperatorOrder, Refused, Vehicle};
 use crate::agent::AgentCommand;
@@ -173,10 +173,16 @@ impl Vehicle {
     /// Drops the current step because the mission was replaced. A landing goes on and ends the flight.
     fn mission_replaced(&mut self, now: Duration) {
         self.mission_changed();
-        self.flight.report_mut().steps_done = 0;
         if self.lands() {
-            self.give_up(now, Why::Replaced);
-        } else if let Life::Flying(flying) = &mut self.life {
+            if let Some(Active { due, .. }) = self.life.due() {
+                self.give_up(now, Why::Replaced { step: due.step });
+            }
+            return;
+        }
+        if self.flight.outcome.is_none() {
+            self.flight.report_mut().steps_done = 0;
+        }
+        if let Life::Flying(flying) = &mut self.life {
             flying.due = None;
             flying.manual.mission_replaced();
         }

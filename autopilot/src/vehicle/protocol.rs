@@ -65,8 +65,8 @@ pub enum Telemetry {
         id: Option<MissionId>,
         /// All its steps.
         steps: Vec<Step>,
-        /// How many of them are done, in the current or last flight.
-        steps_done: usize,
+        /// How many of them are done, in the current or last flight; `None` if they are for the next one.
+        steps_done: Option<usize>,
     },
     /// A target of the mission was reached and held for its stay time.
     Waypoint(Waypoint),
@@ -176,7 +176,8 @@ impl Vehicle {
                 name: self.mission.name().to_owned(),
                 id: self.mission.id(),
                 steps: self.mission.steps().to_vec(),
-                steps_done: self.flight.report().steps_done,
+                steps_done: (!self.flight.mission_is_for_next)
+                    .then_some(self.flight.report().steps_done),
             });
         }
         if let Some(event) = self.events.pop_front() {

@@ -308,8 +308,12 @@ impl Vehicle {
                 reason if landed => Outcome::Failsafe { reason: reason.to_string() },
                 reason => Outcome::Failsafe { reason: format!("{reason}; {NOT_CONFIRMED}") },
             },
-            Life::Landing { why: Why::Replaced, .. } if !landed => {
+            Life::Landing { why: Why::Replaced { .. }, .. } if !landed => {
                 Outcome::Failsafe { reason: NOT_CONFIRMED.to_owned() }
+            }
+            Life::Landing { why: Why::Replaced { step }, .. } => {
+                self.flight.report_mut().steps_done = step + 1;
+                Outcome::Completed
             }
             Life::Landing { why: Why::TakeOverRefused(reasons), .. } => {
                 Outcome::PreflightRefused { reasons: reasons.clone() }

@@ -660,14 +660,14 @@ fn a_mission_is_known_by_its_number_until_it_is_another() {
     bench.fly();
     assert_eq!(reached(&mut bench, up), None, "the vehicle has not said that it has the mission");
     let mission =
-        |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: 0 };
+        |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: Some(0) };
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission(id)));
     assert_eq!([take_off, up].map(|step| reached(&mut bench, step)), [None, Some(0)]);
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission(None)));
     let last = bench.vehicle.flown.steps().len() - 1;
     assert_eq!(reached(&mut bench, last), None, "it was extended, or is another");
     let mission =
-        |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: 0 };
+        |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: Some(0) };
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission(id)));
     assert_eq!(reached(&mut bench, last), Some(3));
 }

@@ -168,7 +168,8 @@ function finish(message) {
   const steps = `${message.steps_done} of ${message.steps} steps`;
   const log = message.log ? ` Log: ${message.log}` : "";
   over = `Over: ${message.outcome}; ${steps}.${log}`;
-  stepsDone = message.steps_done;
+  // Of a mission for the next flight nothing is done.
+  stepsDone = flight.is_for_next ? 0 : message.steps_done;
 }
 
 // Adds a line below the others, which stay where they are: nothing moves under the eye.

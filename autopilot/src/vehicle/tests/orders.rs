@@ -38,6 +38,39 @@ fn of_a_plan_that_replaces_another_in_flight_no_step_is_done() {
     assert_eq!((report.steps, report.steps_done), (2, 0));
 }
 
+/// The report is that of the plan that was flown, whatever is ordered from the landing on.
+#[test]
+fn a_plan_that_comes_too_late_for_a_flight_is_counted_for_the_next() {
+    let next = || plan("takeoff\ngoto 0 0 0 0\nland");
+    let lands = |bench: &Bench| bench.vehicle.decision().unwrap().wanted == AgentCommand::Land;
+    for (flown, is_ordered_down, late, outcome, counted) in [
+        (PLAN, false, next(), Outcome::Completed, (2, 2)),
+        (PLAN, false, OperatorOrder::Clear, Outcome::Completed, (2, 2)),
+        (STAY, true, next(), Outcome::Interrupted, (4, 1)),
+        (STAY, true, OperatorOrder::Clear, Outcome::Interrupted, (4, 1)),
+    ] {
+        let mut bench = Bench::in_the_air(flown);
+        if is_ordered_down {
+            bench.accepted(OperatorOrder::Land);
+        }
+        bench.until(SECOND, lands);
+        bench.accepted(late.clone());
+        bench.comes_down();
+        bench.until(5 * SECOND, |bench| bench.phase() == Phase::Standby);
+        assert_eq!(bench.outcomes, [outcome]);
+        let steps = |bench: &Bench| {
+            let report = bench.vehicle.report();
+            (report.steps, report.steps_done)
+        };
+        assert_eq!(steps(&bench), counted, "{flown}: {}", late.name());
+        bench.accepted(late.clone());
+        assert_eq!(steps(&bench), counted, "{flown}: {} on the ground", late.name());
+        bench.accepted(next());
+        bench.accepted(START);
+        assert_eq!(steps(&bench), (3, 0));
+    }
+}
+
 #[test]
 fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
     let orders = [

@@ -77,7 +77,8 @@ fn a_mission_is_started_from_the_ground_by_mode_and_arming() {
     assert_eq!(bench.ordered(), ["take", "append", "start"]);
     assert_eq!(bench.mode(), Mode::Mission, "before the vehicle flies");
     let id = Some(autopilot::plan::MissionId(0));
-    let mission = Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: 0 };
+    let mission =
+        Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: Some(0) };
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission));
     bench.status.step = Some(0);
     bench.status.command = Some("TakeOff");
@@ -244,7 +245,8 @@ fn the_landing_of_a_return_is_part_of_it() {
     bench.fly();
     bench.accepts(20, NOTHING);
     let id = Some(autopilot::plan::MissionId(0));
-    let mission = Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: 0 };
+    let mission =
+        Telemetry::Mission { name: String::new(), id, steps: Vec::new(), steps_done: Some(0) };
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission));
     bench.status.step = Some(3);
     for command in ["GoTo", "Land"] {

@@ -65,7 +65,7 @@ fn the_screen_shows_the_flight() {
     let mut tell = |at, telemetry| view.take_in(&message(at, telemetry, ticks));
     tell(
         Duration::ZERO,
-        Telemetry::Mission { name: String::new(), id: None, steps, steps_done: 0 },
+        Telemetry::Mission { name: String::new(), id: None, steps, steps_done: Some(0) },
     );
     for tick in 0..40_u32 {
         let status = status(f64::from(tick) / 40.0);
@@ -130,7 +130,7 @@ fn on_eighty_columns_no_word_is_cut() {
     let mut tell = |telemetry| {
         view.take_in(&message(Duration::from_secs(612), telemetry, TickHealth::default()));
     };
-    tell(Telemetry::Mission { name: String::new(), id: None, steps, steps_done: 0 });
+    tell(Telemetry::Mission { name: String::new(), id: None, steps, steps_done: Some(0) });
     let far = Pose { x_m: -9.125, y_m: -8.25, z_m: 2.85, yaw_deg: -179.0 };
     for (contradicted_by, manual) in
         [(None, Some(ManualControl::Hold)), (Some(CrossCheck::Gps), Some(ManualControl::Sticks))]
