@@ -1,7 +1,7 @@
 //! The settings as the page shows and changes them: those of the file, which apply when the program is started with it.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -107,15 +107,20 @@ impl SettingsFile {
     }
 }
 
-/// Writes a file anew, whole or not at all: what a link leads to, with its permissions.
+/// Writes a file anew, whole or not at all: what a link leads to, with its permissions. A link that leads nowhere is an error.
 fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = match fs::canonicalize(path) {
+        Err(_) if !path.is_symlink() => path.to_owned(),
+        found => found?,
+    };
     let mut draft = path.clone().into_os_string();
     draft.push(format!(".{}.new", std::process::id()));
-    fs::write(&draft, text)?;
+    let mut file = fs::File::create(&draft)?;
+    // Before there is anything to read in it.
     if let Ok(there) = fs::metadata(&path) {
-        fs::set_permissions(&draft, there.permissions())?;
+        file.set_permissions(there.permissions())?;
     }
+    file.write_all(text.as_bytes())?;
     fs::rename(&draft, &path)
 }
 
@@ -170,5 +175,8 @@ mod tests {
         assert_eq!(fs::read_to_string(&target).unwrap(), "\u{feff}[fence]\nradius_m = 2\n");
         assert_eq!(fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o600);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no draft is left");
+        fs::remove_file(&target).unwrap();
+        assert!(file(&link).change(r#"{"fence":{"radius_m":2}}"#).is_err());
+        assert!(link.is_symlink() && !target.exists());
     }
 }
