@@ -356,7 +356,7 @@ mod tests {
     fn properties_are_read() {
         let text = format!(
             "{MINIMAL} properties {{ one: exactly_one(send); none_lost: all_handled;\n\
-             prompt [SAF-1, SAF-2]: within(3, +!land, a, b, unless +!hold, unless -wind);\n\
+             prompt [SAF-1 /* the first */, // and\n SAF-2]: within(3, +!land, a, b, unless +!hold, unless -wind);\n\
              asked: only_after(lift, +!takeOff, until sink, stay); }};"
         );
         let (configuration, diagnostics) = parse(&text);
@@ -371,6 +371,15 @@ mod tests {
         };
         assert_eq!((actions.len(), unless.len()), (2, 2));
         assert!(matches!(&asked.formula, Formula::OnlyAfter { until, .. } if until.len() == 2));
+    }
+
+    #[test]
+    fn requirements_are_tags_between_commas() {
+        for tags in ["[]", "[,]", "[A,]", "[,A]", "[A B]", "[A/B]", "[A", "[A;B]", "[[A]]"] {
+            let text = format!("{MINIMAL} properties {{ p {tags}: all_handled; }};");
+            let message = &parse(&text).1[0].message;
+            assert!(message.contains("expected requirement tags"), "{tags}: {message}");
+        }
     }
 
     #[test]

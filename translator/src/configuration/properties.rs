@@ -368,22 +368,29 @@ impl Scanner<'_> {
 
     /// `[REQ-1, REQ-2]`, or empty.
     fn requirements(&mut self) -> Parsed<Vec<String>> {
+        let mut tags = Vec::new();
         self.skip_blanks()?;
         if !self.take("[") {
-            return Ok(Vec::new());
+            return Ok(tags);
         }
-        let length = self.rest().find([']', ';', '\n']).unwrap_or_default();
-        let tags = &self.rest()[..length];
-        let tags: Vec<String> = tags.split(',').map(|tag| tag.trim().to_owned()).collect();
-        let is_tag = |tag: &String| {
-            !tag.is_empty() && tag.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
-        };
-        if !tags.iter().all(is_tag) {
+        loop {
+            self.skip_blanks()?;
+            let rest = self.rest();
+            let ends = |c: char| !(c.is_ascii_alphanumeric() || "-_.".contains(c));
+            let length = rest.find(ends).unwrap_or(rest.len());
+            if length > 0 {
+                tags.push(rest[..length].to_owned());
+                self.position += length;
+                self.skip_blanks()?;
+                if self.take("]") {
+                    return Ok(tags);
+                }
+                if self.take(",") {
+                    continue;
+                }
+            }
             return Err(self.unexpected("requirement tags, such as `[SAF-1, SAF-2]`"));
         }
-        self.position += length;
-        self.expect("]")?;
-        Ok(tags)
     }
 
     /// Reads a number of steps, 1 to 1000.
