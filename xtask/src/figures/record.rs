@@ -15,9 +15,12 @@ use crate::files::cannot;
 pub(super) struct Figures(pub(super) BTreeMap<String, f64>);
 
 impl Figures {
-    /// Adds a figure. `name` is one of [`KINDS`].
+    /// Adds a figure. `name` is one of [`KINDS`]. What is no number, or has no bound, was not measured: JSON has no word for it.
     pub(super) fn add(&mut self, name: &str, of: &str, value: f64) {
         debug_assert!(kind_of(name).is_some(), "{name}");
+        if !value.is_finite() {
+            return;
+        }
         // As many digits as mean something.
         let value = format!("{value:.4e}").parse().unwrap_or(value);
         self.0.insert(format!("{name}: {of}"), value);
@@ -236,6 +239,11 @@ mod tests {
     fn what_is_not_measured_or_not_recorded_is_a_loss() {
         assert!(against(&[(TIME, "rec", 50.0)], &[]).1);
         assert!(against(&[], &[(TIME, "rec", 50.0)]).1);
+        for value in [f64::NAN, f64::INFINITY] {
+            assert!(against(&[(TIME, "rec", value)], &[(TIME, "rec", 50.0)]).1);
+            let measured = record(&[(TIME, "rec", value)]).json();
+            assert_eq!(serde_json::from_str::<Record>(&measured).unwrap(), record(&[]));
+        }
         let mut before = record(&[]);
         before.figures.0.insert("something: of old".to_owned(), 1.0);
         assert!(record(&[]).against(&before, PARTS).1);
