@@ -107,7 +107,8 @@ fn failed(agent: &Agent, attempts: &[Vec<Act>], c: &str) -> Result<Vec<Failed>, 
     for acts in attempts {
         let mut execution = first.clone();
         if acts.iter().all(|act| execution.execute(act)) {
-            tests.push((acts.clone(), execution.trace()));
+            let trace = execution.take_seen().trace + &execution.at_the_end();
+            tests.push((acts.clone(), trace));
         }
     }
     let acts: Vec<Vec<Act>> = tests.iter().map(|(acts, _)| acts.clone()).collect();

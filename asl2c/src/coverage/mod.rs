@@ -124,7 +124,7 @@ fn executable(agent: &Agent, test: &OwnTest) -> Result<(Found, Vec<String>), Cov
     let acts = test_acts(name, transcript, agent.configuration.declarations());
     let acts = acts.map_err(CoverageError::Test)?;
     let too_long = || CoverageError::Test(format!("{name}: a step is too long"));
-    let found = search::given(&agent.configuration, &agent.text, acts)?.ok_or_else(too_long)?;
+    let found = search::given(&agent.configuration, &agent.text, &acts)?.ok_or_else(too_long)?;
     Ok((found, replayed.broken))
 }
 

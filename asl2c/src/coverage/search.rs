@@ -11,7 +11,7 @@ use translator::types::TypeKind;
 use translator::{Act, ParsedConfiguration, TranslateError};
 
 use super::values::Numbers;
-use super::world::{Execution, Goal};
+use super::world::{Execution, Goal, Seen};
 use crate::run::parameters;
 
 /// The search ends after this number of continuations that reached nothing new, ..
@@ -36,18 +36,34 @@ pub(super) struct Found {
 #[derive(Clone)]
 struct Run<'a> {
     acts: Vec<Act>,
+    seen: Seen,
+    /// After these acts, without what was seen.
     execution: Execution<'a>,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    /// No act yet.
+    fn new(configuration: &'a ParsedConfiguration, text: &str) -> Result<Self, TranslateError> {
+        let agent = Interpreter::new(configuration, text)?;
+        let execution = Execution::new(agent, configuration.declarations());
+        Ok(Self { acts: Vec::new(), seen: Seen::default(), execution })
+    }
+
+    /// The run that goes on with `acts`, which `execution` has executed.
+    fn continued(&self, acts: &[Act], mut execution: Execution<'a>) -> Self {
+        let mut seen = self.seen.clone();
+        seen.append(execution.take_seen());
+        Self { acts: [&self.acts, acts].concat(), seen, execution }
+    }
+
     fn found(&self) -> Found {
-        let plans = self.execution.reached().iter().filter_map(|goal| match goal {
+        let plans = self.seen.reached.iter().filter_map(|goal| match goal {
             Goal::Plan(place, true) => Some(*place),
             _ => None,
         });
         Found {
             acts: without_effectless(&self.acts),
-            trace: self.execution.trace(),
+            trace: self.seen.trace.clone() + &self.execution.at_the_end(),
             plans: plans.collect(),
         }
     }
@@ -58,16 +74,16 @@ pub(super) fn search(
     configuration: &ParsedConfiguration,
     text: &str,
 ) -> Result<Vec<Found>, TranslateError> {
-    let first = first(configuration, text)?;
+    let first = Run::new(configuration, text)?;
     let (runs, reached) = explore(&first, configuration.declarations(), text);
     // What is proved of agents is proved without `clear()`: this test alone has it.
-    let mut cleared = Run { acts: Vec::new(), execution: first.execution.clone() };
-    for act in [Act::Step, Act::Clear, Act::Step] {
-        cleared.execution.execute(&act);
-        cleared.acts.push(act);
+    let acts = [Act::Step, Act::Clear, Act::Step];
+    let mut cleared = first.execution.clone();
+    for act in &acts {
+        cleared.execute(act);
     }
     let mut found = fewest(&runs, reached);
-    found.push(cleared.found());
+    found.push(first.continued(&acts, cleared).found());
     Ok(found)
 }
 
@@ -75,12 +91,12 @@ pub(super) fn search(
 pub(super) fn given(
     configuration: &ParsedConfiguration,
     text: &str,
-    acts: Vec<Act>,
+    acts: &[Act],
 ) -> Result<Option<Found>, TranslateError> {
-    let mut run = first(configuration, text)?;
-    let ends = acts.iter().all(|act| run.execution.execute(act));
-    run.acts = acts;
-    Ok(ends.then(|| run.found()))
+    let first = Run::new(configuration, text)?;
+    let mut execution = first.execution.clone();
+    let ends = acts.iter().all(|act| execution.execute(act));
+    Ok(ends.then(|| first.continued(acts, execution).found()))
 }
 
 /// Short executions to the steps that decide something: for each decision and its outcome one of the shortest that were
@@ -89,27 +105,27 @@ pub(super) fn places(
     configuration: &ParsedConfiguration,
     text: &str,
 ) -> Result<Vec<(String, Vec<Act>)>, TranslateError> {
-    let first = first(configuration, text)?;
+    let first = Run::new(configuration, text)?;
     let (runs, _) = explore(&first, configuration.declarations(), text);
     let mut shortest: BTreeMap<Goal, (String, Vec<Act>)> = BTreeMap::new();
     for run in &runs {
         let acts = without_effectless(&run.acts);
         let mut execution = first.execution.clone();
-        let mut place = (execution.next(), 0);
+        let mut place = (execution.next().to_owned(), 0);
         for (index, act) in acts.iter().enumerate() {
-            execution.forget_reached();
             execution.execute(act);
+            let Seen { reached, .. } = execution.take_seen();
             if *act != Act::Step {
                 continue;
             }
-            for goal in execution.reached().iter().filter(|goal| goal.is_decision()) {
-                let known = shortest.get(goal);
+            for goal in reached.into_iter().filter(Goal::is_decision) {
+                let known = shortest.get(&goal);
                 if known.is_none_or(|(_, known)| known.len() > place.1) {
                     let (next, length) = &place;
-                    shortest.insert(goal.clone(), (next.clone(), acts[..*length].to_vec()));
+                    shortest.insert(goal, (next.clone(), acts[..*length].to_vec()));
                 }
             }
-            place = (execution.next(), index + 1);
+            place = (execution.next().to_owned(), index + 1);
         }
     }
     let mut places: Vec<(String, Vec<Act>)> = Vec::new();
@@ -119,16 +135,6 @@ pub(super) fn places(
         }
     }
     Ok(places)
-}
-
-/// The run without any act.
-fn first<'a>(
-    configuration: &'a ParsedConfiguration,
-    text: &str,
-) -> Result<Run<'a>, TranslateError> {
-    let agent = Interpreter::new(configuration, text)?;
-    let execution = Execution::new(agent, configuration.declarations());
-    Ok(Run { acts: Vec::new(), execution })
 }
 
 /// Runs that reach all that is found, and what they reach.
@@ -148,7 +154,7 @@ fn explore<'a>(
             break;
         }
         let Some(continued) = search.continued(&runs, &reached) else { continue };
-        reached.extend(continued.execution.reached().iter().cloned());
+        reached.extend(continued.seen.reached.iter().cloned());
         runs.push(continued);
         idle = 0;
     }
@@ -171,9 +177,9 @@ impl<'a> Search<'a> {
         if run.acts.len() > LONGEST {
             return None;
         }
-        let mut acts = run.acts.clone();
+        let mut acts = Vec::new();
         let mut execution = run.execution.clone();
-        let mut useful: Option<(usize, usize, Execution<'a>)> = None;
+        let mut useful = None;
         // Sometimes nothing happens for long: what counts steps or time comes to its end then.
         let is_quiet = self.random.random_range(0..8) == 0;
         let (steps, calls) = if is_quiet { (QUIET, 0) } else { (6, 3) };
@@ -188,15 +194,12 @@ impl<'a> Search<'a> {
             if !execution.execute(&Act::Step) {
                 break;
             }
-            let known = useful.as_ref().map_or(0, |(count, ..)| *count);
-            let new = execution.reached().difference(reached).count();
-            if new > known {
-                useful = Some((new, acts.len(), execution.clone()));
+            if !execution.take_new().iter().all(|goal| reached.contains(goal)) {
+                useful = Some((acts.len(), execution.clone()));
             }
         }
-        let (_, length, execution) = useful?;
-        acts.truncate(length);
-        Some(Run { acts, execution })
+        let (length, execution) = useful?;
+        Some(run.continued(&acts[..length], execution))
     }
 
     /// Anything that the environment may do between steps.
@@ -277,11 +280,11 @@ impl<'a> Search<'a> {
 fn fewest(runs: &[Run<'_>], mut missing: BTreeSet<Goal>) -> Vec<Found> {
     let mut chosen = Vec::new();
     while let Some(best) = runs.iter().max_by_key(|run| {
-        let new = run.execution.reached().intersection(&missing).count();
+        let new = run.seen.reached.intersection(&missing).count();
         // Of those that reach the same, the shortest.
         (new, usize::MAX - run.acts.len())
     }) {
-        let reached = best.execution.reached();
+        let reached = &best.seen.reached;
         if reached.is_disjoint(&missing) {
             break;
         }

@@ -46,6 +46,8 @@ pub(super) struct Execution<'a> {
     configuration: &'a Configuration,
     agent: Interpreter,
     world: World<'a>,
+    /// The next event, without its values; empty if there is none.
+    next: String,
 }
 
 #[derive(Debug, Clone)]
@@ -54,8 +56,26 @@ struct World<'a> {
     /// The actions that send messages.
     sending: Vec<Basic>,
     answers: BTreeMap<String, VecDeque<Value>>,
-    trace: String,
-    reached: BTreeSet<Goal>,
+    seen: Seen,
+    /// Of what was reached, what was not reached before.
+    new: Vec<Goal>,
+}
+
+/// What was seen of an execution.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Seen {
+    /// All calls, in the form of [`translator::scripted`], without the test's number.
+    pub(super) trace: String,
+    /// What was reached.
+    pub(super) reached: BTreeSet<Goal>,
+}
+
+impl Seen {
+    /// Adds what was seen after it.
+    pub(super) fn append(&mut self, later: Self) {
+        self.trace += &later.trace;
+        self.reached.extend(later.reached);
+    }
 }
 
 impl<'a> Execution<'a> {
@@ -71,20 +91,27 @@ impl<'a> Execution<'a> {
             configuration,
             sending: configuration.sending(),
             answers,
-            trace: String::new(),
-            reached: BTreeSet::new(),
+            seen: Seen::default(),
+            new: Vec::new(),
         };
-        Self { configuration, agent, world }
+        let next = without_values(agent.waiting());
+        Self { configuration, agent, world, next }
     }
 
-    /// What was reached.
-    pub(super) fn reached(&self) -> &BTreeSet<Goal> {
-        &self.world.reached
+    /// Takes away what was reached for the first time since the last call, and since what was seen was taken away.
+    pub(super) fn take_new(&mut self) -> Vec<Goal> {
+        std::mem::take(&mut self.world.new)
     }
 
-    /// The trace, in the form of [`translator::scripted`], without the test's number.
-    pub(super) fn trace(&self) -> String {
-        let mut trace = self.world.trace.clone();
+    /// Takes away what was seen until now: whatever is continued often is copied without it.
+    pub(super) fn take_seen(&mut self) -> Seen {
+        self.world.new.clear();
+        std::mem::take(&mut self.world.seen)
+    }
+
+    /// What its functions say of the events at its end, in the form of the trace.
+    pub(super) fn at_the_end(&self) -> String {
+        let mut trace = String::new();
         // Writing to a string cannot fail.
         _ = writeln!(trace, "> can_add_event() = {}", self.agent.can_add_event());
         for (name, count) in self.counts() {
@@ -96,11 +123,6 @@ impl<'a> Execution<'a> {
     /// The next answer of a function.
     pub(super) fn answer(&self, function: &str) -> Option<&Value> {
         self.world.answers.get(function).and_then(VecDeque::front)
-    }
-
-    /// Begins to collect anew what is reached.
-    pub(super) fn forget_reached(&mut self) {
-        self.world.reached.clear();
     }
 
     fn counts(&self) -> Vec<(&'static str, u32)> {
@@ -115,17 +137,9 @@ impl<'a> Execution<'a> {
         counts
     }
 
-    /// The next event, without its values.
-    pub(super) fn next(&self) -> String {
-        let mut depth = 0;
-        let mut name = self.agent.waiting().into_iter().next().unwrap_or_default();
-        name.retain(|character| {
-            depth += i32::from(character == '(');
-            let is_outside = depth == 0 && !character.is_ascii_digit();
-            depth -= i32::from(character == ')');
-            is_outside
-        });
-        name
+    /// The next event, without its values; empty if there is none.
+    pub(super) fn next(&self) -> &str {
+        &self.next
     }
 
     /// Executes an act. False if a step is too long: the state is undefined then.
@@ -136,7 +150,6 @@ impl<'a> Execution<'a> {
             values.collect::<Vec<_>>().join(", ")
         };
         let before = self.counts();
-        let next = self.next();
         match act {
             Act::Raise(event, values) => {
                 let name = &event.name.text;
@@ -144,11 +157,11 @@ impl<'a> Execution<'a> {
                 let result = self.agent.raise(event.operator, event.kind, name, values.clone());
                 let accepted = result.is_ok();
                 let call = call_name(event);
-                _ = writeln!(self.world.trace, "> {call}({values_text}) = {accepted}");
+                _ = writeln!(self.world.seen.trace, "> {call}({values_text}) = {accepted}");
             }
             Act::Set(belief, values) => {
                 let values_text = trace(values, parameters(self.configuration, belief));
-                _ = writeln!(self.world.trace, "> set_{belief}({values_text})");
+                _ = writeln!(self.world.seen.trace, "> set_{belief}({values_text})");
                 self.agent.set(belief.clone(), values.clone());
             }
             Act::Receive(performative, about, values) => {
@@ -161,27 +174,27 @@ impl<'a> Execution<'a> {
                 };
                 // The clock may be called before the answer is known.
                 let call = format!("receive_{}_{about}", performative.name());
-                _ = write!(self.world.trace, "> {call}({values_text}) = ");
+                _ = write!(self.world.seen.trace, "> {call}({values_text}) = ");
                 let accepted = sender.is_ok_and(|sender| {
                     let said = said.to_vec();
                     self.agent.receive(sender, *performative, about, said, &mut self.world)
                 });
-                _ = writeln!(self.world.trace, "{accepted}");
+                _ = writeln!(self.world.seen.trace, "{accepted}");
             }
             Act::Be(peer) => {
-                self.world.trace += "> init()\n";
+                self.world.seen.trace += "> init()\n";
                 self.agent.be(*peer);
             }
             Act::Answer(function, values) => {
                 self.world.answers.insert(function.clone(), values.iter().cloned().collect());
             }
             Act::Clear => {
-                self.world.trace += "> clear()\n";
+                self.world.seen.trace += "> clear()\n";
                 self.agent.clear();
             }
             Act::Step => {
-                self.world.trace += "> next_step()\n";
-                self.world.reached.insert(Goal::Next(next.clone()));
+                self.world.seen.trace += "> next_step()\n";
+                self.world.reach(Goal::Next(self.next.clone()));
                 if self.agent.next_step_within(LONGEST, &mut self.world).is_err() {
                     return false;
                 }
@@ -189,11 +202,35 @@ impl<'a> Execution<'a> {
         }
         for (index, (before, after)) in before.iter().zip(self.counts()).enumerate() {
             if before.1 != after.1 {
-                self.world.reached.insert(Goal::Counted(index, next.clone()));
+                self.world.reach(Goal::Counted(index, self.next.clone()));
             }
         }
-        self.world.reached.insert(Goal::Waiting(self.agent.waiting().len()));
+        let waiting = self.agent.waiting();
+        self.world.reach(Goal::Waiting(waiting.len()));
+        self.next = without_values(waiting);
         true
+    }
+}
+
+/// The first of these events, without its values.
+fn without_values(waiting: Vec<String>) -> String {
+    let mut name = waiting.into_iter().next().unwrap_or_default();
+    let mut depth = 0;
+    name.retain(|character| {
+        depth += i32::from(character == '(');
+        let is_outside = depth == 0 && !character.is_ascii_digit();
+        depth -= i32::from(character == ')');
+        is_outside
+    });
+    name
+}
+
+impl World<'_> {
+    fn reach(&mut self, goal: Goal) {
+        if !self.seen.reached.contains(&goal) {
+            self.new.push(goal.clone());
+            self.seen.reached.insert(goal);
+        }
     }
 }
 
@@ -209,7 +246,7 @@ impl Environment for World<'_> {
         let values = arguments.iter().zip(types);
         let values: Vec<String> =
             values.map(|(value, ctype)| traced(value, ctype, self.configuration)).collect();
-        _ = write!(self.trace, "{name}({})", values.join(", "));
+        _ = write!(self.seen.trace, "{name}({})", values.join(", "));
         let answer = if result.kind == TypeKind::Void {
             None
         } else {
@@ -218,15 +255,15 @@ impl Environment for World<'_> {
             if answers.len() > 1 {
                 answers.pop_front();
             }
-            _ = write!(self.trace, " = {}", traced(&answer, result, self.configuration));
+            _ = write!(self.seen.trace, " = {}", traced(&answer, result, self.configuration));
             Some(answer)
         };
-        self.trace.push('\n');
+        self.seen.trace.push('\n');
         answer
     }
 
     fn decided(&mut self, decision: Decision) {
-        self.reached.insert(match decision {
+        self.reach(match decision {
             Decision::Condition { place, holds } => Goal::Condition(place.start, place.end, holds),
             Decision::Compared { place, order } => Goal::Compared(place.start, order),
             Decision::Plan { place, applies } => Goal::Plan(place.start, applies),
