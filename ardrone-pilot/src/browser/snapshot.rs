@@ -96,13 +96,15 @@ impl Snapshot {
                 self.status = object.clone();
             }
             Telemetry::Event(_) => self.remember(&object),
-            // The page redraws everything.
-            Telemetry::Mission { name, steps, steps_done, .. } if *steps != self.steps => {
-                self.steps.clone_from(steps);
+            Telemetry::Mission { name, steps, steps_done, .. } => {
                 self.is_for_next = steps_done.is_none();
-                self.name = printable(name).into_owned();
-                self.notes.clear();
-                return self.so_far();
+                if *steps != self.steps {
+                    self.steps.clone_from(steps);
+                    self.name = printable(name).into_owned();
+                    self.notes.clear();
+                    // The page redraws everything.
+                    return self.so_far();
+                }
             }
             Telemetry::Readiness(_) => self.ready = object.clone(),
             Telemetry::Ended(outcome, _) => {
@@ -110,7 +112,7 @@ impl Snapshot {
                 let warns = !matches!(outcome, Outcome::Completed | Outcome::Interrupted);
                 return self.tell(*at, warns, &outcome.to_string());
             }
-            Telemetry::Mission { .. } | Telemetry::Waypoint(_) => {}
+            Telemetry::Waypoint(_) => {}
         }
         object
     }
@@ -249,16 +251,33 @@ mod tests {
     use crate::timing::TickHealth;
     use autopilot::vehicle::FlightEvent;
 
+    fn of(plan: &Plan) -> Snapshot {
+        let vehicles = [VehicleName::default()];
+        let config = VehicleConfig::default();
+        Snapshot::new(Some(plan), &config, "192.168.1.1", &vehicles, &vehicles)
+    }
+
+    #[test]
+    fn a_mission_is_for_the_next_flight_until_that_begins() {
+        let plan = Plan::parse("p", "takeoff\nland\n").unwrap();
+        let mut snapshot = of(&plan);
+        for steps_done in [None, Some(0)] {
+            let steps = plan.steps().to_vec();
+            let mission = Telemetry::Mission { name: "p".to_owned(), id: None, steps, steps_done };
+            let content = Content::Telemetry(Duration::ZERO, mission, TickHealth::default());
+            let vehicle = VehicleName::default();
+            assert_eq!(
+                snapshot.take_in(&Message { vehicle, content })["steps_done"],
+                json!(steps_done)
+            );
+            assert_eq!(snapshot.so_far()["is_for_next"], steps_done.is_none());
+        }
+    }
+
     #[test]
     fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut snapshot = Snapshot::new(
-            Some(&plan),
-            &VehicleConfig::default(),
-            "192.168.1.1",
-            &[VehicleName::default()],
-            &[VehicleName::default()],
-        );
+        let mut snapshot = of(&plan);
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
             let started = Telemetry::Event(FlightEvent::StepStarted { step });

@@ -79,6 +79,9 @@ function take(message) {
       decide(message);
       plots.add(message);
       break;
+    case "mission":
+      flight.is_for_next = message.steps_done === null;
+      break;
     case "event":
       if (message.warning) dangers.warn(message.text);
       addEvent(message);
