@@ -174,7 +174,12 @@ impl Mission {
 
     /// Whether a take-off is among the steps.
     pub fn takes_off(&self) -> bool {
-        self.steps.iter().any(|step| matches!(step.command, Command::TakeOff { .. }))
+        take_off_is_among(&self.steps)
+    }
+
+    /// Whether a take-off is among the steps that have not begun.
+    pub fn takes_off_again(&self) -> bool {
+        self.steps.get(self.next..).is_some_and(take_off_is_among)
     }
 
     /// Applies the settings that come next and returns the order after them; `None` at the end of the
@@ -234,6 +239,10 @@ impl Mission {
     fn lands_implicitly(&self) -> bool {
         self.steps.last().is_some_and(Step::is_implied)
     }
+}
+
+fn take_off_is_among(steps: &[Step]) -> bool {
+    steps.iter().any(|step| matches!(step.command, Command::TakeOff { .. }))
 }
 
 #[cfg(test)]

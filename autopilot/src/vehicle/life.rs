@@ -104,7 +104,7 @@ pub(super) enum Why {
     GivenUp(LandingReason),
     /// A drone that was taken over in the air must not be flown on, for these reasons.
     TakeOverRefused(Vec<String>),
-    /// The mission was replaced during its last landing.
+    /// The mission was replaced during a landing that was one of its steps, and ends with it.
     Replaced {
         /// The landing.
         step: usize,

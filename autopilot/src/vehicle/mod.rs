@@ -386,7 +386,8 @@ impl Vehicle {
         let steps = self.mission.steps().len();
         let report = self.flight.report_mut();
         report.steps = steps;
-        report.waypoints.reserve(steps.saturating_sub(report.waypoints.len()));
+        // Those of a mission that was replaced in flight stay.
+        report.waypoints.reserve(steps);
     }
 
     /// The drone is monitored from now on.

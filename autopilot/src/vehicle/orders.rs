@@ -153,8 +153,20 @@ impl Vehicle {
             && (lands || self.flight.activity.is_descending())
     }
 
+    /// Ends the flight if the drone stands after its last landing, as one of the next ticks would: a mission that comes in between
+    /// is for the next flight, and must not lift a drone that has just landed.
+    fn end_if_flown(&mut self, now: Duration) {
+        let waits = self.life.flying().is_some_and(|flying| {
+            flying.has_flown && flying.due.is_none() && !flying.manual.pauses_mission()
+        });
+        if waits && self.on_ground() && !self.mission.takes_off_again() {
+            self.end(now, Outcome::Completed);
+        }
+    }
+
     fn load(&mut self, now: Duration, plan: Plan) -> Result<(), Refused> {
         self.take_tags_of(&plan)?;
+        self.end_if_flown(now);
         self.mission.load(plan, self.life.flying().is_some());
         self.events.push_back(FlightEvent::MissionLoaded { steps: self.mission.steps().len() });
         self.mission_replaced(now);
@@ -162,6 +174,7 @@ impl Vehicle {
     }
 
     fn clear(&mut self, now: Duration) {
+        self.end_if_flown(now);
         if self.is_about_to_fly() {
             self.land(now, LandingReason::Operator);
         }
@@ -192,6 +205,7 @@ impl Vehicle {
         if self.lands() {
             return Err(Refused::Landing);
         }
+        self.end_if_flown(now);
         let underway = self.life.flying().map(|flying| Underway {
             here: self.pose(now),
             airborne: !self.on_ground(),

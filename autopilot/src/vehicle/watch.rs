@@ -312,7 +312,9 @@ impl Vehicle {
                 Outcome::Failsafe { reason: NOT_CONFIRMED.to_owned() }
             }
             Life::Landing { why: Why::Replaced { step }, .. } => {
-                self.flight.report_mut().steps_done = step + 1;
+                if self.flight.outcome.is_none() {
+                    self.flight.report_mut().steps_done = step + 1;
+                }
                 Outcome::Completed
             }
             Life::Landing { why: Why::TakeOverRefused(reasons), .. } => {

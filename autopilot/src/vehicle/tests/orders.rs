@@ -71,6 +71,47 @@ fn a_plan_that_comes_too_late_for_a_flight_is_counted_for_the_next() {
     }
 }
 
+/// Nobody has ordered it to fly again.
+#[test]
+fn what_comes_right_after_the_last_step_lifts_nobody() {
+    let late = [plan("takeoff\ngoto 0 0 0 0\nland"), OperatorOrder::Clear, append("takeoff")];
+    for flown in [PLAN, "takeoff\nland\nsetStayTime 1"] {
+        for order in &late {
+            let mut bench = Bench::in_the_air(flown);
+            bench.run(SECOND);
+            bench.comes_down();
+            bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 2);
+            assert!(bench.outcomes.is_empty(), "it ends in the next tick");
+            let steps = bench.vehicle.report().steps;
+            bench.accepted(order.clone());
+            for _ in 0..100 {
+                bench.step();
+                assert_ne!(bench.reference(), Some(Ref::TakeOff), "{flown}: {}", order.name());
+            }
+            assert_eq!(
+                (bench.phase(), &bench.outcomes[..]),
+                (Phase::Standby, &[Outcome::Completed][..])
+            );
+            let report = bench.vehicle.report();
+            assert_eq!((report.steps, report.steps_done), (steps, 2), "{flown}: {}", order.name());
+        }
+    }
+}
+
+/// What was told of the end stays so, also when the drone is heard again.
+#[test]
+fn a_landing_that_is_confirmed_too_late_changes_no_report() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.run(SECOND);
+    bench.accepted(plan(PLAN));
+    bench.run(40 * SECOND);
+    assert_eq!(bench.outcomes.len(), 1, "{:?}", bench.outcomes);
+    let told = bench.vehicle.report().steps_done;
+    bench.comes_down();
+    bench.until(5 * SECOND, |bench| bench.phase() == Phase::Standby);
+    assert_eq!((told, bench.vehicle.report().steps_done), (1, 1));
+}
+
 #[test]
 fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
     let orders = [
