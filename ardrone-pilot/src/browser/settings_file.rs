@@ -115,13 +115,23 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
     };
     let mut draft = path.clone().into_os_string();
     draft.push(format!(".{}.new", std::process::id()));
-    let mut file = fs::File::create(&draft)?;
+    let draft = PathBuf::from(draft);
+    let replaced = write_like(&path, &draft, text).and_then(|()| fs::rename(&draft, &path));
+    if replaced.is_err() {
+        // There may be none; what went wrong is told.
+        _ = fs::remove_file(&draft);
+    }
+    replaced
+}
+
+/// Writes a draft of a file, with the permissions that the file has.
+fn write_like(path: &Path, draft: &Path, text: &str) -> io::Result<()> {
+    let mut file = fs::File::create(draft)?;
     // Before there is anything to read in it.
-    if let Ok(there) = fs::metadata(&path) {
+    if let Ok(there) = fs::metadata(path) {
         file.set_permissions(there.permissions())?;
     }
-    file.write_all(text.as_bytes())?;
-    fs::rename(&draft, &path)
+    file.write_all(text.as_bytes())
 }
 
 #[cfg(test)]
@@ -178,5 +188,14 @@ mod tests {
         fs::remove_file(&target).unwrap();
         assert!(file(&link).change(r#"{"fence":{"radius_m":2}}"#).is_err());
         assert!(link.is_symlink() && !target.exists());
+    }
+
+    #[test]
+    fn what_cannot_be_replaced_leaves_no_draft() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pilot.toml");
+        fs::create_dir(&path).unwrap();
+        assert!(replace(&path, "text").is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }
