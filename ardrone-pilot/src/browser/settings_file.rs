@@ -45,7 +45,7 @@ impl SettingsFile {
     }
 
     /// What was read of the file; nothing if there is none.
-    fn there<T: Default>(&self, read: io::Result<T>) -> Result<T, ChangeError> {
+    fn read_or_empty<T: Default>(&self, read: io::Result<T>) -> Result<T, ChangeError> {
         match read {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(T::default()),
             read => read.map_err(|error| ChangeError::File(self.name(), error)),
@@ -58,8 +58,9 @@ impl SettingsFile {
     /// # Errors
     /// [`ChangeError`] if the file cannot be read, or is invalid.
     pub(super) fn json(&self) -> Result<Value, ChangeError> {
-        let written = Settings::parse(&self.name(), &self.there(text_file::read(&self.path))?)?
-            .described()?;
+        let written =
+            Settings::parse(&self.name(), &self.read_or_empty(text_file::read(&self.path))?)?
+                .described()?;
         let in_effect = self.in_effect.described()?;
         let value = |described: &Described| {
             let same = |other: &&Described| {
@@ -92,7 +93,7 @@ impl SettingsFile {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
         let system = |error| ChangeError::File(self.name(), error);
-        let bytes = self.there(text_file::read_bytes(&self.path))?;
+        let bytes = self.read_or_empty(text_file::read_bytes(&self.path))?;
         let text = std::str::from_utf8(&bytes).map_err(|_| {
             let why = "it is not UTF-8, and would not stay as it is";
             system(io::Error::new(io::ErrorKind::InvalidData, why))

@@ -98,6 +98,17 @@ fn what_comes_right_after_the_last_step_lifts_nobody() {
     }
 }
 
+/// Those of the plan before it stay in the report, and a tick must not allocate.
+#[test]
+fn a_plan_that_replaces_another_in_flight_has_room_for_its_waypoints() {
+    let goto = "goto 0 0 0 0\n";
+    let mut bench = Bench::in_the_air(&format!("takeoff\nsetStayTime 0\n{}", goto.repeat(6)));
+    bench.until(60 * SECOND, |bench| bench.vehicle.report().waypoints.len() == 6);
+    bench.accepted(plan(&format!("takeoff\n{}land", goto.repeat(5))));
+    let waypoints = &bench.vehicle.report().waypoints;
+    assert!(waypoints.capacity() >= 6 + 5, "{}", waypoints.capacity());
+}
+
 /// What was told of the end stays so, also when the drone is heard again.
 #[test]
 fn a_landing_that_is_confirmed_too_late_changes_no_report() {
