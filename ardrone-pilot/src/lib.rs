@@ -45,3 +45,4 @@ mod text_file;
 pub mod timing;
 mod typed;
 pub mod video;
+mod whole_file;

@@ -1,9 +1,11 @@
 //! Files of one folder, by their names: there is no way out of it.
 
 use std::fs::{self, File};
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+
+use crate::whole_file;
 
 /// Maximum length of a file name.
 const LONGEST_NAME: usize = 100;
@@ -119,17 +121,15 @@ impl Folder {
         let path = self.path_of(name)?;
         let system = |error| FolderError::System(name.to_owned(), error);
         fs::create_dir_all(&self.path).map_err(system)?;
-        if !replaces {
-            let mut file = File::create_new(&path).map_err(|error| match error.kind() {
-                io::ErrorKind::AlreadyExists => FolderError::Exists(name.to_owned()),
-                _ => system(error),
-            })?;
-            return file.write_all(content).map_err(system);
-        }
-        // No name of the folder begins with a dot.
-        let draft = self.path.join(format!(".{name}.new"));
-        fs::write(&draft, content).map_err(system)?;
-        fs::rename(&draft, &path).map_err(system)
+        let written = if replaces {
+            whole_file::replace(&path, content)
+        } else {
+            whole_file::create(&path, content)
+        };
+        written.map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => FolderError::Exists(name.to_owned()),
+            _ => system(error),
+        })
     }
 
     /// Deletes a file.

@@ -1,13 +1,14 @@
 //! The settings as the page shows and changes them: those of the file, which apply when the program is started with it.
 
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
 use crate::settings::{Described, Settings, SettingsError, with_changes};
 use crate::text_file::{self, BYTE_ORDER_MARK};
+use crate::whole_file;
 
 /// The `pilot.toml` that the page changes.
 #[derive(Debug, Clone)]
@@ -108,31 +109,13 @@ impl SettingsFile {
     }
 }
 
-/// Writes a file anew, whole or not at all: what a link leads to, with its permissions. A link that leads nowhere is an error.
+/// Writes a file anew: what a link leads to. A link that leads nowhere is an error.
 fn replace(path: &Path, text: &str) -> io::Result<()> {
     let path = match fs::canonicalize(path) {
         Err(_) if !path.is_symlink() => path.to_owned(),
         found => found?,
     };
-    let mut draft = path.clone().into_os_string();
-    draft.push(format!(".{}.new", std::process::id()));
-    let draft = PathBuf::from(draft);
-    let replaced = write_like(&path, &draft, text).and_then(|()| fs::rename(&draft, &path));
-    if replaced.is_err() {
-        // There may be none; what went wrong is told.
-        _ = fs::remove_file(&draft);
-    }
-    replaced
-}
-
-/// Writes a draft of a file, with the permissions that the file has.
-fn write_like(path: &Path, draft: &Path, text: &str) -> io::Result<()> {
-    let mut file = fs::File::create(draft)?;
-    // Before there is anything to read in it.
-    if let Ok(there) = fs::metadata(path) {
-        file.set_permissions(there.permissions())?;
-    }
-    file.write_all(text.as_bytes())
+    whole_file::replace(&path, text.as_bytes())
 }
 
 #[cfg(test)]
@@ -189,14 +172,5 @@ mod tests {
         fs::remove_file(&target).unwrap();
         assert!(file(&link).change(r#"{"fence":{"radius_m":2}}"#).is_err());
         assert!(link.is_symlink() && !target.exists());
-    }
-
-    #[test]
-    fn what_cannot_be_replaced_leaves_no_draft() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("pilot.toml");
-        fs::create_dir(&path).unwrap();
-        assert!(replace(&path, "text").is_err());
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

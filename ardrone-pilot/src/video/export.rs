@@ -2,11 +2,12 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use muxide::api::{MuxerBuilder, MuxerError, VideoCodec};
 
 use crate::recording::{LogError, RecordedPicture, pictures};
+use crate::whole_file;
 
 /// Why there is no file.
 #[derive(Debug, thiserror::Error)]
@@ -65,28 +66,16 @@ pub fn export(log: &[u8], path: &Path) -> Result<Exported, ExportError> {
         seconds: last.at.saturating_sub(first.at).as_secs_f64(),
     };
     let failed = |source| ExportError::Write { path: path.display().to_string(), source };
-    // In the same folder, so that nothing is left of a file that could not be finished.
-    let partial = partial(path);
-    let file = File::create(&partial).map_err(failed)?;
-    let written = write(BufWriter::new(file), &pictures, &failed);
-    let written = written.and_then(|()| std::fs::rename(&partial, path).map_err(failed));
-    if written.is_err() {
-        // It may not be there; the first error is the one to tell.
-        _ = std::fs::remove_file(&partial);
-    }
-    written.map(|()| exported)
-}
-
-fn partial(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".partial");
-    path.with_file_name(name)
+    let draft = whole_file::draft(path).map_err(failed)?;
+    write(BufWriter::new(draft.as_file()), &pictures, &failed)?;
+    draft.persist(path).map_err(|error| failed(error.error))?;
+    Ok(exported)
 }
 
 type Failed<'a> = &'a dyn Fn(std::io::Error) -> ExportError;
 
 fn write_stream(
-    mut file: BufWriter<File>,
+    mut file: BufWriter<&File>,
     pictures: &[RecordedPicture],
     failed: Failed<'_>,
 ) -> Result<(), ExportError> {
@@ -98,7 +87,7 @@ fn write_stream(
 
 /// The time of a picture in the file is that of its arrival.
 fn write_mp4(
-    file: BufWriter<File>,
+    file: BufWriter<&File>,
     pictures: &[RecordedPicture],
     failed: Failed<'_>,
 ) -> Result<(), ExportError> {
