@@ -108,6 +108,58 @@ const SHIFTS: &str = "window.shifts = []; new PerformanceObserver((list) => { \
     }).observe({ type: 'layout-shift' }); window.cls = () => Math.max(0, ...shifts.map(([from]) => \
     shifts.filter(([at]) => at >= from && at < from + 5000).reduce((sum, [, value]) => sum + value, 0))); true";
 
+/// A plan that is loaded while the drone lands is for the next flight: nothing of it is shown as done, whatever was flown.
+#[test]
+fn a_plan_that_comes_while_the_drone_lands_is_shown_as_not_begun() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let shown = "drawSteps(); [...document.querySelectorAll('#steps > *')].map((item) => item.className).join()";
+    let load = |name: &str, plan: &str| {
+        format!("order({})", json!({ "order": "load", "name": name, "plan": plan }))
+    };
+    let replaced = |chromium: &mut Chromium, tab: &Tab| {
+        let climbs = "status?.phase === 'flying' && status.step === 1 && status.pose.z_m > 0.7";
+        chromium.wait(tab, climbs);
+        assert_eq!(chromium.evaluate(tab, shown), "done,now,,,");
+        chromium.evaluate(tab, "order({ order: 'land' })");
+        chromium.wait(tab, "!!status.landing");
+        chromium.evaluate(tab, &load("next", "takeoff\ngoto 0 0 1 0\nland\n"));
+        chromium.wait(tab, "flight.plan === 'next' && !!status");
+        assert_eq!(chromium.evaluate(tab, "!!status.landing && !over"), true, "it still lands");
+        assert_eq!(chromium.evaluate(tab, shown), ",,");
+    };
+    // The program's only flight.
+    {
+        let station = flying();
+        let tab = chromium.open(&station.url);
+        replaced(&mut chromium, &tab);
+        chromium.wait(&tab, "!!over");
+        assert_eq!(chromium.evaluate(&tab, "over.includes('1 of 5 steps')"), true);
+        assert_eq!(chromium.evaluate(&tab, shown), ",,");
+    }
+    // One of several.
+    let station = at_rest("0");
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    chromium.evaluate(&tab, &load("hover", HOVER));
+    chromium.wait(&tab, "flight.plan === 'hover' && !!status");
+    chromium.evaluate(&tab, "order({ order: 'start' })");
+    replaced(&mut chromium, &tab);
+    chromium.wait(&tab, "status.phase === 'standby'");
+    assert_eq!(chromium.evaluate(&tab, shown), ",,");
+    // Somebody who comes now sees the same.
+    chromium.reload(&tab);
+    chromium.wait(&tab, "typeof flight === 'object' && flight?.plan === 'next' && !!status");
+    assert_eq!(chromium.evaluate(&tab, shown), ",,");
+    chromium.evaluate(&tab, "order({ order: 'start' })");
+    chromium.wait(&tab, "status.phase === 'flying' && status.step === 1");
+    assert_eq!(chromium.evaluate(&tab, shown), "done,now,");
+    // From its start on it counts.
+    signal(&station.child, "-INT");
+    chromium.wait(&tab, "!!over");
+    assert_eq!(chromium.evaluate(&tab, "over.includes('1 of 3 steps')"), true);
+    assert_eq!(chromium.evaluate(&tab, shown), "done,,");
+}
+
 /// Whatever is said in a flight, nothing moves: neither the buttons nor anything else, on large and on small screens.
 #[test]
 fn nothing_moves_under_the_cursor() {
