@@ -274,6 +274,8 @@ pub struct Vehicle {
     /// The other vehicles in the room.
     neighbours: Neighbours,
     pending: Pending,
+    /// Ends of earlier flights that nobody was told of yet: orders may end a flight and begin the next before a tick.
+    untold: VecDeque<(Outcome, Arc<FlightReport>)>,
 }
 
 /// Why a vehicle cannot fly a plan.
@@ -339,6 +341,7 @@ impl Vehicle {
             camera: None,
             neighbours: Neighbours::default(),
             pending: Pending::default(),
+            untold: VecDeque::new(),
         })
     }
 
@@ -356,11 +359,12 @@ impl Vehicle {
 
     /// Resets the state of the last flight.
     fn begin_flight(&mut self, now: Duration) {
+        let untold = self.end_to_tell();
+        self.untold.extend(untold);
         self.start_here(now);
         self.flight = Flight::new(&self.with_mission_tags(), now);
         self.expect_link_delay();
         self.pending.waypoints = 0;
-        self.pending.outcome = false;
         self.mission.rewind();
         self.mission_changed();
     }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::life::{Active, Departure, Life, Preparation, Why};
 use super::readiness::NotReady;
-use super::{FlightEvent, LandingReason, Operator, OperatorOrder, Refused, Vehicle};
+use super::{FlightEvent, LandingReason, Operator, OperatorOrder, Refused, Vehicle, Veto};
 use crate::agent::AgentCommand;
 use crate::mission::Underway;
 use crate::outcome::Outcome;
@@ -153,20 +153,24 @@ impl Vehicle {
             && (lands || self.flight.activity.is_descending())
     }
 
-    /// Ends the flight if the drone stands after its last landing, as one of the next ticks would: a mission that comes in between
-    /// is for the next flight, and must not lift a drone that has just landed.
-    fn end_if_flown(&mut self, now: Duration) {
-        let waits = self.life.flying().is_some_and(|flying| {
-            flying.has_flown && flying.due.is_none() && !flying.manual.pauses_mission()
-        });
-        if waits && self.on_ground() && !self.mission.takes_off_again() {
-            self.end(now, Outcome::Completed);
+    /// Ends the flight of a drone that is down for good, as one of the next ticks would: a mission that comes in between is for the
+    /// next flight, and must not lift it.
+    fn end_if_down(&mut self, now: Duration) {
+        let Some(flying) = self.life.flying().filter(|_| self.on_ground()) else { return };
+        if flying.has_risen && !self.lands() {
+            // It has come down by itself.
+            self.land(now, LandingReason::Safety(Veto::Landing));
+            return;
+        }
+        let waits = flying.has_flown && flying.due.is_none() && !flying.manual.pauses_mission();
+        if waits && !self.mission.takes_off_again() {
+            self.next_step(now);
         }
     }
 
     fn load(&mut self, now: Duration, plan: Plan) -> Result<(), Refused> {
+        self.end_if_down(now);
         self.take_tags_of(&plan)?;
-        self.end_if_flown(now);
         self.mission.load(plan, self.life.flying().is_some());
         self.events.push_back(FlightEvent::MissionLoaded { steps: self.mission.steps().len() });
         self.mission_replaced(now);
@@ -174,7 +178,7 @@ impl Vehicle {
     }
 
     fn clear(&mut self, now: Duration) {
-        self.end_if_flown(now);
+        self.end_if_down(now);
         if self.is_about_to_fly() {
             self.land(now, LandingReason::Operator);
         }
@@ -202,10 +206,10 @@ impl Vehicle {
     }
 
     fn append(&mut self, now: Duration, commands: Commands) -> Result<(), Refused> {
+        self.end_if_down(now);
         if self.lands() {
             return Err(Refused::Landing);
         }
-        self.end_if_flown(now);
         let underway = self.life.flying().map(|flying| Underway {
             here: self.pose(now),
             airborne: !self.on_ground(),

@@ -122,8 +122,9 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`Refused`] for an order that is not accepted, a datagram that is damaged or old, and a neighbour that is not believed.
-    /// Nothing has changed then but counts, with two exceptions: an operator to whom the controls were due has them, whatever
-    /// else the order was refused for; and a neighbour that [`Jumps`](crate::separation::NotHeard::Jumps) is kept apart from.
+    /// Nothing has changed then but counts, with three exceptions: an operator to whom the controls were due has them, whatever
+    /// else the order was refused for; a neighbour that [`Jumps`](crate::separation::NotHeard::Jumps) is kept apart from; and the
+    /// flight of a drone that is down for good ends before an order that changes the mission, as the next tick would end it.
     pub fn handle(&mut self, now: Duration, input: Input<'_>) -> Result<(), Refused> {
         self.handle_timed(now, input, |_| {})
     }
@@ -171,6 +172,10 @@ impl Vehicle {
     }
 
     fn poll_telemetry(&mut self) -> Option<Telemetry> {
+        // Before anything of the flight that has begun since.
+        if let Some((outcome, report)) = self.untold.pop_front() {
+            return Some(Telemetry::Ended(outcome, report));
+        }
         if std::mem::take(&mut self.pending.mission) {
             return Some(Telemetry::Mission {
                 name: self.mission.name().to_owned(),
@@ -193,8 +198,14 @@ impl Vehicle {
         if std::mem::take(&mut self.pending.status) {
             return Some(Telemetry::Status(self.status(self.pending.at)));
         }
+        let (outcome, report) = self.end_to_tell()?;
+        Some(Telemetry::Ended(outcome, report))
+    }
+
+    /// The end of this flight, unless it was told already.
+    pub(super) fn end_to_tell(&mut self) -> Option<(Outcome, Arc<FlightReport>)> {
         let outcome = self.flight.outcome.as_ref();
         let outcome = outcome.filter(|_| std::mem::take(&mut self.pending.outcome))?.clone();
-        Some(Telemetry::Ended(outcome, Arc::clone(self.flight.report())))
+        Some((outcome, Arc::clone(self.flight.report())))
     }
 }

@@ -293,7 +293,7 @@ impl Vehicle {
 
     /// Begins the next step. After the last one, the flight ends if the drone is on the ground; in the air it
     /// holds until it gets another order.
-    fn next_step(&mut self, now: Duration) {
+    pub(super) fn next_step(&mut self, now: Duration) {
         match self.mission.advance(&self.pose(now)) {
             Some(due) => {
                 if let Life::Flying(flying) = &mut self.life {

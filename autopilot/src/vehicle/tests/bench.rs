@@ -151,6 +151,10 @@ impl Bench {
         if self.is_heard {
             self.hear();
         }
+        self.tick();
+    }
+
+    pub(super) fn tick(&mut self) {
         assert_eq!(self.vehicle.handle(self.now, Input::Tick), Ok(()));
         self.commands.clear();
         while let Some(output) = self.vehicle.poll() {

@@ -74,26 +74,45 @@ fn a_plan_that_comes_too_late_for_a_flight_is_counted_for_the_next() {
 /// Nobody has ordered it to fly again.
 #[test]
 fn what_comes_right_after_the_last_step_lifts_nobody() {
-    let late = [plan("takeoff\ngoto 0 0 0 0\nland"), OperatorOrder::Clear, append("takeoff")];
-    for flown in [PLAN, "takeoff\nland\nsetStayTime 1"] {
-        for order in &late {
+    // With the steps of the mission after it.
+    let late = [
+        (plan("takeoff\ngoto 0 0 0 0\nland"), 3),
+        (OperatorOrder::Clear, 0),
+        // What is appended to a mission that has ended begins a new one.
+        (append("takeoff"), 1),
+    ];
+    // The last plan ends with a landing that it does not say, on the ground: it begins at once.
+    for (flown, appended, counted) in [
+        (PLAN, "", (2, 2)),
+        (PLAN, "setStayTime 1", (3, 2)),
+        ("takeoff\nland\nsetStayTime 1", "", (4, 4)),
+    ] {
+        for (order, left) in &late {
             let mut bench = Bench::in_the_air(flown);
+            if !appended.is_empty() {
+                bench.accepted(append(appended));
+            }
             bench.run(SECOND);
             bench.comes_down();
             bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 2);
             assert!(bench.outcomes.is_empty(), "it ends in the next tick");
-            let steps = bench.vehicle.report().steps;
-            bench.accepted(order.clone());
+            let said = format!("{flown} {appended}: {}", order.name());
+            let lands = counted.0 == 4;
+            if lands && matches!(order, OperatorOrder::Append(_)) {
+                assert_eq!(bench.order(order.clone()), Err(Refused::Landing), "{said}");
+            } else {
+                bench.accepted(order.clone());
+                assert_eq!(bench.vehicle.mission().len(), *left, "{said}");
+            }
             for _ in 0..100 {
                 bench.step();
-                assert_ne!(bench.reference(), Some(Ref::TakeOff), "{flown}: {}", order.name());
+                assert_ne!(bench.reference(), Some(Ref::TakeOff), "{said}");
             }
-            assert_eq!(
-                (bench.phase(), &bench.outcomes[..]),
-                (Phase::Standby, &[Outcome::Completed][..])
-            );
+            let (phase, outcomes) = (bench.phase(), &bench.outcomes[..]);
+            assert_eq!((phase, outcomes), (Phase::Standby, &[Outcome::Completed][..]), "{said}");
             let report = bench.vehicle.report();
-            assert_eq!((report.steps, report.steps_done), (steps, 2), "{flown}: {}", order.name());
+            assert_eq!((report.steps, report.steps_done), counted, "{said}");
+            assert!(report.flight_time_at(bench.now).is_some(), "{said}");
         }
     }
 }
@@ -109,9 +128,71 @@ fn a_plan_that_replaces_another_in_flight_has_room_for_its_waypoints() {
     assert!(waypoints.capacity() >= 6 + 5, "{}", waypoints.capacity());
 }
 
+/// An order that comes between the packet that says so and the next tick.
+#[test]
+fn what_comes_when_the_drone_has_come_down_by_itself_lifts_nobody() {
+    for order in [plan(STAY), OperatorOrder::Clear, append("takeoff")] {
+        let mut bench = Bench::in_the_air(STAY);
+        bench.run(SECOND);
+        bench.comes_down();
+        loop {
+            bench.now += TICK;
+            bench.hear();
+            if bench.vehicle.on_ground() {
+                break;
+            }
+            bench.tick();
+        }
+        let is_refused = matches!(order, OperatorOrder::Append(_));
+        let expected = if is_refused { Err(Refused::Landing) } else { Ok(()) };
+        let name = order.name();
+        assert_eq!(bench.order(order), expected, "{name}");
+        for _ in 0..100 {
+            bench.tick();
+            assert_ne!(bench.reference(), Some(Ref::TakeOff), "{name}");
+            bench.now += TICK;
+            bench.hear();
+        }
+        assert_eq!(bench.phase(), Phase::Standby, "{name}");
+        assert!(matches!(&bench.outcomes[..], [Outcome::Failsafe { .. }]), "{:?}", bench.outcomes);
+        assert_eq!(bench.vehicle.report().steps_done, 1, "{name}");
+    }
+}
+
+/// Orders may end a flight and begin the next before anybody is told of the first one's end.
+#[test]
+fn each_flights_end_is_told_once_and_before_the_next_one() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.run(SECOND);
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 2);
+    bench.missions.clear();
+    bench.accepted(plan(STAY));
+    bench.accepted(START);
+    bench.accepted(OperatorOrder::Land);
+    // Its height is not known before.
+    bench.hear();
+    bench.accepted(START);
+    assert_eq!(bench.vehicle.outcome(), None);
+    let told: Vec<_> = std::iter::from_fn(|| {
+        bench.vehicle.poll().map(|output| match output {
+            Output::Telemetry(Telemetry::Ended(outcome, report)) => {
+                Some((outcome, report.steps_done, report.flight_time_at(bench.now).is_some()))
+            }
+            _ => None,
+        })
+    })
+    .collect();
+    let ends = [Some((Outcome::Completed, 2, true)), Some((Outcome::CalledOff, 0, false))];
+    assert_eq!(told[..2], ends);
+    assert!(told.len() > 2 && told[2..].iter().all(Option::is_none), "{told:?}");
+    bench.step();
+    assert!(bench.outcomes.is_empty());
+}
+
 /// What was told of the end stays so, also when the drone is heard again.
 #[test]
-fn a_landing_that_is_confirmed_too_late_changes_no_report() {
+fn a_landing_that_is_confirmed_too_late_changes_no_count_of_steps() {
     let mut bench = Bench::in_the_air(PLAN);
     bench.run(SECOND);
     bench.accepted(plan(PLAN));
