@@ -49,8 +49,11 @@ const MOST_LINES: usize = 5;
 
 /// How long a program may run.
 const MOST_SECONDS: u64 = 600;
-/// How long a program may run an agent. Its steps end, but their length doubles with each level of goals.
+/// How long a processor may run an agent's steps. They end, but their length doubles with each level of goals. The time of a
+/// clock would say as much of what else the machine does.
 const MOST_SECONDS_OF_STEPS: u64 = 30;
+/// Units in which Linux tells processor time (`proc_pid_stat(5)`; `USER_HZ` is 100 on all machines that Rust runs on).
+const UNITS_PER_S: u64 = 100;
 
 /// Runs a program in a folder. Returns its output.
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
@@ -79,16 +82,33 @@ pub(crate) fn output(
     let runs_steps = program == "valgrind" || program.starts_with("./");
     let seconds = if runs_steps { MOST_SECONDS_OF_STEPS } else { MOST_SECONDS };
     let begun = Instant::now();
-    let late = || begun.elapsed() >= Duration::from_secs(seconds);
+    let late = |process| {
+        let lasts = begun.elapsed();
+        // What waits without working ends, too.
+        let is_endless = lasts >= Duration::from_secs(MOST_SECONDS);
+        let worked = || processor_time(process).filter(|_| runs_steps).unwrap_or(lasts);
+        is_endless
+            || lasts >= Duration::from_secs(seconds) && worked() >= Duration::from_secs(seconds)
+    };
     let finished = finished(&mut command, late).map_err(failed)?;
     finished.ok_or_else(|| ToolError::Endless { program: program.to_owned(), seconds })
 }
 
-/// What a program printed until its end; `None` if it was given up, and ended.
+/// How long processors have worked for a process that still runs; `None` where the system does not tell.
+fn processor_time(process: u32) -> Option<Duration> {
+    let told = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // Its name comes first, in parentheses, and may be anything.
+    let (_, behind) = told.rsplit_once(')')?;
+    let mut numbers = behind.split_whitespace().skip(11).map(str::parse::<u64>);
+    let (user, system) = (numbers.next()?.ok()?, numbers.next()?.ok()?);
+    Some(Duration::from_millis((user + system) * (1000 / UNITS_PER_S)))
+}
+
+/// What a program printed until its end; `None` if it was given up, and ended. What gives up is told the process.
 #[allow(clippy::disallowed_methods, reason = "other programs are waited for")]
 pub(crate) fn finished(
     command: &mut Command,
-    give_up: impl Fn() -> bool,
+    give_up: impl Fn(u32) -> bool,
 ) -> io::Result<Option<Output>> {
     // Files, because the output may exceed the capacity of a pipe while the process is waited for.
     let (mut said, mut errors) = (tempfile::tempfile()?, tempfile::tempfile()?);
@@ -100,7 +120,7 @@ pub(crate) fn finished(
         if let Some(status) = child.try_wait()? {
             break status;
         }
-        if give_up() {
+        if give_up(child.id()) {
             // It may have ended already.
             _ = child.kill();
             child.wait()?;
@@ -153,5 +173,29 @@ fn package(program: &str) -> &'static str {
         "frama-c" => "frama-c-base",
         "valgrind" => "valgrind",
         _ => "gcc",
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_process_is_timed_by_what_processors_work_for_it() {
+        let worked = || processor_time(std::process::id()).unwrap();
+        let before = worked();
+        let mut number = 1_u32;
+        let mut is_seen = || {
+            for _ in 0..10_000_000 {
+                number = std::hint::black_box(number.wrapping_mul(3));
+            }
+            worked() >= before + Duration::from_millis(200)
+        };
+        assert!((0..1000).any(|_| is_seen()));
+        let mut sleeps = Command::new("sleep").arg("60").spawn().unwrap();
+        assert!(processor_time(sleeps.id()).unwrap() < Duration::from_secs(1));
+        sleeps.kill().unwrap();
+        sleeps.wait().unwrap();
+        assert_eq!(processor_time(sleeps.id()), None);
     }
 }

@@ -89,7 +89,7 @@ impl Cbmc {
             path.to_owned()
         };
         let asked = Instant::now();
-        let output = finished(Command::new(&path).arg("--version"), || asked.elapsed() > SPEAKS);
+        let output = finished(Command::new(&path).arg("--version"), |_| asked.elapsed() > SPEAKS);
         let output = output.map_err(|_| missing("CBMC cannot be run".to_owned()))?;
         let silent = || missing(format!("{} does not tell its version", path.display()));
         let output = output.ok_or_else(silent)?;
@@ -350,7 +350,7 @@ impl Cbmc {
         give_up: impl Fn() -> bool,
     ) -> Result<Option<Said>, ProveError> {
         let give_up = || give_up() || self.check_stop().is_err();
-        let output = finished(command, give_up).map_err(in_file("cannot run", &self.path))?;
+        let output = finished(command, |_| give_up()).map_err(in_file("cannot run", &self.path))?;
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         Ok(output.map(|output| Said {
             status: output.status.code(),
