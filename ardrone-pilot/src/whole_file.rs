@@ -15,21 +15,31 @@ const OWNER: u32 = 0o600;
 /// An empty draft of a file, in its folder and with its permissions; deleted when dropped. `persist` puts it into its place.
 ///
 /// # Errors
-/// Those of the file system.
+/// Those of the file system, without the name of the draft.
 pub(crate) fn draft(path: &Path) -> io::Result<NamedTempFile> {
     // A link is replaced: who may read what it leads to says nothing of the new file.
     let replaced = fs::symlink_metadata(path).ok().filter(fs::Metadata::is_file);
-    let mode = if replaced.is_some() { OWNER } else { NEW };
+    let draft = begun(path, if replaced.is_some() { OWNER } else { NEW })?;
+    if let Some(replaced) = replaced {
+        let mode = replaced.permissions().mode() & 0o777;
+        let file = draft.as_file();
+        // Some file systems have the same permissions for all files, and let nobody set them.
+        if file.metadata()?.permissions().mode() & 0o777 != mode {
+            file.set_permissions(Permissions::from_mode(mode))?;
+        }
+    }
+    Ok(draft)
+}
+
+fn begun(path: &Path, mode: u32) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let draft = Builder::new()
+    Builder::new()
         .prefix(".")
         .suffix(".new")
         .permissions(Permissions::from_mode(mode))
-        .tempfile_in(folder.unwrap_or(Path::new(".")))?;
-    if let Some(replaced) = replaced {
-        draft.as_file().set_permissions(replaced.permissions())?;
-    }
-    Ok(draft)
+        .tempfile_in(folder.unwrap_or(Path::new(".")))
+        // With its text it names the draft, of which nobody has heard.
+        .map_err(|error| error.kind().into())
 }
 
 /// Writes a file, which takes the place of one that may be there.
@@ -51,8 +61,8 @@ pub(crate) fn create(path: &Path, content: &[u8]) -> io::Result<()> {
 }
 
 fn complete(path: &Path, content: &[u8]) -> io::Result<NamedTempFile> {
-    let mut draft = draft(path)?;
-    draft.write_all(content)?;
+    let draft = draft(path)?;
+    draft.as_file().write_all(content)?;
     Ok(draft)
 }
 
@@ -72,6 +82,7 @@ mod tests {
         fs::write(&old, "one").unwrap();
         for secrecy in [0o600, 0o644, 0o664] {
             fs::set_permissions(&old, Permissions::from_mode(secrecy)).unwrap();
+            assert_eq!(mode(begun(&old, OWNER).unwrap().path()), 0o600, "at first");
             assert_eq!(mode(draft(&old).unwrap().path()), secrecy);
             replace(&old, b"two").unwrap();
             assert_eq!(mode(&old), secrecy);
@@ -106,7 +117,10 @@ mod tests {
         fs::create_dir(&path).unwrap();
         assert!(replace(&path, b"text").is_err());
         assert!(create(&path, b"text").is_err());
-        assert!(replace(&folder.path().join("none/pilot.toml"), b"text").is_err());
+        let nowhere = folder.path().join("none/pilot.toml");
+        let error = replace(&nowhere, b"text").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(".new"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

@@ -289,6 +289,7 @@ fn a_recorded_flight_has_its_video() {
     let (status, film) = export("film.mp4");
     assert_eq!((status, &film[4..8]), (Some(0), &b"ftyp"[..]));
     assert!(film.len() > expected.len());
+    assert_eq!(export("film.mp4"), (Some(0), film), "it is replaced");
     assert_eq!(export("film.avi"), (Some(2), Vec::new()));
     for name in ["full.h264", "full.mp4"] {
         no_room(&log, &folder.path().join(name));

@@ -24,7 +24,7 @@ let heard = 0; // time of the last message
 let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended, in words
-let stepsDone = null; // when it ended
+let stepsDone = 0; // as far as is known
 let trail = []; // [right, forward, up] in metres
 let trailOfFlight = 0; // where in it the last flight begins
 let me = null; // our name among the operators
@@ -73,6 +73,8 @@ function take(message) {
       // It has taken off, maybe again.
       if (message.flight_time_s !== null && message.flight_time_s < (status?.flight_time_s ?? Infinity)) trailOfFlight = trail.length;
       status = message;
+      // A landing that is no step undoes none; the next flight does.
+      stepsDone = flight.is_for_next ? 0 : (message.step ?? (message.phase === "standby" ? 0 : stepsDone));
       clock = Math.max(clock, message.t_s * 1000 - performance.now());
       behind = clock - (message.t_s * 1000 - performance.now());
       if (message.pose) extendTrail(message.pose);
@@ -122,7 +124,8 @@ function begin(message) {
   trail = message.trail;
   decided = "";
   // Another run of the program has begun, or this one goes on.
-  over = stepsDone = status = null;
+  over = status = null;
+  stepsDone = 0;
   // The end of a path says more than its beginning.
   $("plan").textContent = message.plan.split(/[\\/]/).at(-1) || "ardrone-pilot";
   $("plan").title = message.plan;
@@ -404,7 +407,7 @@ function drawGauges() {
 function drawSteps() {
   [...$("steps").children].forEach((item, index) => {
     const now = index === status.step;
-    const done = index < (stepsDone ?? status.step ?? 0);
+    const done = index < stepsDone;
     const name = done ? "done" : now ? "now" : "";
     if (item.className === name) return;
     item.className = name;
