@@ -406,7 +406,8 @@ function drawGauges() {
 
 function drawSteps() {
   [...$("steps").children].forEach((item, index) => {
-    const now = index === status.step;
+    // The step of a flight that still lands is none of a mission for the next one.
+    const now = !flight.is_for_next && index === status.step;
     const done = index < stepsDone;
     const name = done ? "done" : now ? "now" : "";
     if (item.className === name) return;

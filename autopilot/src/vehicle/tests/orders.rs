@@ -166,7 +166,6 @@ fn each_flights_end_is_told_once_and_before_the_next_one() {
     bench.run(SECOND);
     bench.comes_down();
     bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 2);
-    bench.missions.clear();
     bench.accepted(plan(STAY));
     bench.accepted(START);
     bench.accepted(OperatorOrder::Land);
