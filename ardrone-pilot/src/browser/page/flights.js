@@ -53,12 +53,20 @@ const flights = (() => {
     if (!isFirst) exchange(made);
     filter();
     note(files.length ? "" : "There is no recorded flight yet.");
-    // The end of the last flight may not be recorded yet.
     const isOpen = ({ current, flights }) => current && flights.some(({ outcome }) => outcome === null);
-    const flies = status && (status.phase === "flying" || status.phase === "landing");
-    if (!flies && [...summaries.values()].some(isOpen)) setTimeout(() => view === "flights" && mine === round && list(), LATER);
+    if ([...summaries.values()].some(isOpen)) listAtItsEnd(mine);
     chosen = chosen.filter((key) => body.querySelector(`input[value="${CSS.escape(key)}"]`));
     compare();
+  }
+
+  // Lists again when the last flight has ended and its end is recorded, if that is still what is looked at.
+  function listAtItsEnd(mine) {
+    setTimeout(() => {
+      if (view !== "flights" || mine !== round) return;
+      const flies = status && (status.phase === "flying" || status.phase === "landing");
+      if (flies) listAtItsEnd(mine);
+      else list();
+    }, LATER);
   }
 
   // Puts rows in the place of those before; the focus stays on the button of the same name.
