@@ -63,8 +63,7 @@ const flights = (() => {
   function listAtItsEnd(mine) {
     setTimeout(() => {
       if (view !== "flights" || mine !== round) return;
-      const flies = status && (status.phase === "flying" || status.phase === "landing");
-      if (flies) listAtItsEnd(mine);
+      if (isAirborne()) listAtItsEnd(mine);
       else list();
     }, LATER);
   }
