@@ -33,13 +33,64 @@ pub struct EncodedPicture {
     pub is_entry: bool,
 }
 
+/// The pictures since the last key picture, with it, as long as all show the same.
+///
+/// A whole group of them that keeps the bit rate is sent again while nothing moves: a drone that stands on the ground, before most flights and after
+/// each, would take more than half a processor to show what it has shown.
+#[derive(Default)]
+struct Still {
+    of: Option<(Scene, View)>,
+    payloads: Vec<Bytes>,
+    /// Which of them is sent next, if they are sent again.
+    next: usize,
+}
+
+impl Still {
+    fn shows(&self, scene: &Scene, view: &View) -> bool {
+        self.of.as_ref().is_some_and(|of| (&of.0, &of.1) == (scene, view))
+    }
+
+    fn record(&mut self, scene: &Scene, view: &View, payload: &Bytes) {
+        self.next = 0;
+        if is_entry(payload) {
+            self.of = Some((scene.clone(), *view));
+            self.payloads.clear();
+        }
+        if self.of.is_some() {
+            self.payloads.push(payload.clone());
+        }
+    }
+
+    /// The bit rate of a whole group.
+    fn kbit_s(&self) -> f32 {
+        let bytes: usize = self.payloads.iter().map(Bytes::len).sum();
+        bytes as f32 * 8.0 / 1000.0 * PICTURES_PER_S / GROUP as f32
+    }
+
+    /// The next picture, if that is one that was there already.
+    fn repeat(&mut self, is_same: bool, kbit_s: u32) -> Option<Bytes> {
+        // The encoder goes on with a key picture, and two of them in a row could not be told apart by their numbers.
+        let is_behind_key = self.next == 1;
+        if self.payloads.len() < GROUP as usize
+            || !(is_same || is_behind_key)
+            || self.kbit_s() > kbit_s as f32
+        {
+            return None;
+        }
+        let payload = self.payloads[self.next].clone();
+        self.next = (self.next + 1) % self.payloads.len();
+        Some(payload)
+    }
+}
+
 /// Encodes one picture after the other.
 pub struct VideoEncoder {
     encoder: Encoder,
     kbit_s: u32,
     wanted_kbit_s: u32,
-    /// Pictures since the last key picture, with it.
+    /// Pictures since the encoder's last key picture, with it.
     group: u32,
+    still: Still,
     pixels: Pixels,
     clock: Option<u32>,
     number: u32,
@@ -64,6 +115,7 @@ impl VideoEncoder {
             kbit_s: RATE,
             wanted_kbit_s: RATE,
             group: 0,
+            still: Still::default(),
             pixels: Pixels::default(),
             clock,
             number: 0,
@@ -86,27 +138,8 @@ impl VideoEncoder {
         scene: &Scene,
         view: &View,
     ) -> Result<EncodedPicture, EncodeError> {
-        // The encoder keeps its rate for life. At a key picture another one can go on, because nothing depends on what was
-        // before; two key pictures in a row could not be told apart by their numbers.
-        if self.kbit_s != self.wanted_kbit_s && self.group == GROUP {
-            self.encoder = encoder(self.wanted_kbit_s)?;
-            self.kbit_s = self.wanted_kbit_s;
-        }
-        scene.render(view, &mut self.pixels);
-        if let Some(zero) = self.clock {
-            draw_clock(zero.wrapping_add(milliseconds(time)), &mut self.pixels.luma);
-        }
-        let payload = self.encoder.encode_planes(&YuvPlanes {
-            width: WIDTH,
-            height: HEIGHT,
-            y: &self.pixels.luma,
-            u: &self.pixels.blue,
-            v: &self.pixels.red,
-            stride_y: WIDTH,
-            stride_c: WIDTH / 2,
-        })?;
+        let payload = self.payload(time, scene, view)?;
         let is_entry = is_entry(&payload);
-        self.group = if is_entry { 1 } else { self.group + 1 };
         let [sps_bytes, pps_bytes] = if is_entry { parameter_bytes(&payload) } else { [0, 0] };
         let payload_bytes = u32::try_from(payload.len()).unwrap_or(u32::MAX);
         let header = Header {
@@ -132,6 +165,46 @@ impl VideoEncoder {
         header.encode(&mut bytes);
         bytes.put_slice(&payload);
         Ok(EncodedPicture { bytes: bytes.freeze(), is_entry })
+    }
+
+    /// The access unit of a picture.
+    fn payload(
+        &mut self,
+        time: Duration,
+        scene: &Scene,
+        view: &View,
+    ) -> Result<Bytes, EncodeError> {
+        let is_same = self.clock.is_none()
+            && self.kbit_s == self.wanted_kbit_s
+            && self.still.shows(scene, view);
+        if let Some(payload) = self.still.repeat(is_same, self.kbit_s) {
+            return Ok(payload);
+        }
+        // The encoder keeps its rate for life. At a key picture another one can go on, because nothing depends on what was
+        // before; two key pictures in a row could not be told apart by their numbers.
+        if self.kbit_s != self.wanted_kbit_s && self.group == GROUP {
+            self.encoder = encoder(self.wanted_kbit_s)?;
+            self.kbit_s = self.wanted_kbit_s;
+        }
+        if !is_same {
+            self.still.of = None;
+            scene.render(view, &mut self.pixels);
+        }
+        if let Some(zero) = self.clock {
+            draw_clock(zero.wrapping_add(milliseconds(time)), &mut self.pixels.luma);
+        }
+        let payload = Bytes::from(self.encoder.encode_planes(&YuvPlanes {
+            width: WIDTH,
+            height: HEIGHT,
+            y: &self.pixels.luma,
+            u: &self.pixels.blue,
+            v: &self.pixels.red,
+            stride_y: WIDTH,
+            stride_c: WIDTH / 2,
+        })?);
+        self.group = if is_entry(&payload) { 1 } else { self.group + 1 };
+        self.still.record(scene, view, &payload);
+        Ok(payload)
     }
 }
 
@@ -212,6 +285,53 @@ mod tests {
     }
 
     #[test]
+    fn what_stands_still_is_encoded_once() {
+        let mut encoder = VideoEncoder::new(None).unwrap();
+        let mut reader = Reader::default();
+        let mut number = 0_u32;
+        let mut was_key = false;
+        // Each view is left at another place of the group that is sent again.
+        for count in 30..50 {
+            let view = View { position_m: Vector3::new(f64::from(count), 0.0, 1.0), ..VIEW };
+            let mut keys = Vec::new();
+            for nth in 0..count {
+                let time = Duration::from_millis(33 * u64::from(number));
+                reader.push(&encoder.encode(time, &Scene::default(), &view).unwrap().bytes);
+                let picture = reader.next().unwrap();
+                assert_eq!((picture.header.number, picture.header.time), (number, time));
+                assert!(!(was_key && picture.is_entry()), "two key pictures in a row");
+                // What is seen elsewhere is shown at once, or behind a picture that has to come before.
+                assert!(nth != 1 || was_key || picture.is_entry(), "{count}");
+                was_key = picture.is_entry();
+                number += 1;
+                if was_key {
+                    keys.push(picture.payload);
+                }
+            }
+            assert!(keys.len() >= 2 && keys.iter().all(|key| *key == keys[0]), "{count}");
+        }
+    }
+
+    #[test]
+    fn a_group_in_which_something_moved_is_not_sent_again() {
+        let mut encoder = VideoEncoder::new(None).unwrap();
+        let mut reader = Reader::default();
+        let mut film = |moves: bool| -> Vec<Bytes> {
+            let picture = |nth| {
+                let x = if moves && nth == 7 { 0.1 } else { 0.0 };
+                let view = View { position_m: Vector3::new(x, 0.0, 1.0), ..VIEW };
+                let encoded = encoder.encode(Duration::ZERO, &Scene::default(), &view).unwrap();
+                reader.push(&encoded.bytes);
+                reader.next().unwrap().payload
+            };
+            (0..GROUP).map(picture).collect()
+        };
+        let [moved, stood, again] = [true, false, false].map(&mut film);
+        assert_ne!(moved[7], stood[7]);
+        assert_eq!(stood, again);
+    }
+
+    #[test]
     fn the_rate_changes_at_a_key_picture() {
         let mut encoder = VideoEncoder::new(None).unwrap();
         let mut reader = Reader::default();
@@ -239,6 +359,31 @@ mod tests {
             let found = film(kbit_s);
             assert!(found.abs_diff(kbit_s as usize) < kbit_s as usize / 10, "{kbit_s}: {found}");
         }
+    }
+
+    /// The first group after a change is much larger than those into which the encoder settles.
+    #[test]
+    fn a_group_beyond_the_rate_is_not_sent_again() {
+        let mut encoder = VideoEncoder::new(None).unwrap();
+        encoder.set_rate(250);
+        let mut film = |pictures: u32| {
+            let view = View { is_bottom: false, ..VIEW };
+            let mut picture = || encoder.encode(Duration::ZERO, &Scene::default(), &view).unwrap();
+            let bytes: usize = (0..pictures).map(|_| picture().bytes.len()).sum();
+            bytes as f32 * 8.0 / 1000.0 / (pictures as f32 / PICTURES_PER_S)
+        };
+        let (at_first, settled) = (film(30), film(90));
+        assert!(at_first > 1000.0 && settled < 0.7 * at_first, "{at_first} {settled}");
+    }
+
+    #[test]
+    fn the_clock_goes_on_where_nothing_moves() {
+        let mut encoder = VideoEncoder::new(Some(0)).unwrap();
+        let mut film = |nth: u64| {
+            encoder.encode(Duration::from_secs(nth), &Scene::default(), &VIEW).unwrap().bytes
+        };
+        let pictures: Vec<Bytes> = (0..u64::from(GROUP) * 2).map(&mut film).collect();
+        assert_ne!(pictures[1][usize::from(HEADER)..], pictures[16][usize::from(HEADER)..]);
     }
 
     #[test]

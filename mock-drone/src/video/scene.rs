@@ -49,7 +49,7 @@ pub struct View {
 }
 
 /// What there is to see.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {
     /// Tags on the floor.
     pub tags: Vec<FloorTag>,
