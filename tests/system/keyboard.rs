@@ -252,7 +252,14 @@ fn a_drone_is_held_and_landed_from_everywhere() {
     let load = format!("order({})", json!({ "order": "load", "name": "hover", "plan": plan }));
     person.chromium.evaluate(&person.tab, &load);
     person.wait("flight.plan === 'hover'");
+    // Whoever looks at the list sees there that a flight has begun.
+    person.chromium.evaluate(&person.tab, "show('flights')");
+    person.wait(
+        "performance.getEntriesByType('resource').some(({ name }) => name.includes('/summary'))",
+    );
     person.chromium.evaluate(&person.tab, "order({ order: 'start' })");
+    let goes_on = "document.querySelector('#recordings tbody').textContent.includes('goes on')";
+    person.wait(goes_on);
     person.wait("status.phase === 'flying' && status.step >= 1");
     let resume = |person: &mut Keyboard<'_>| {
         person.chromium.evaluate(&person.tab, "order({ order: 'resume' })");
@@ -306,14 +313,13 @@ fn a_drone_is_held_and_landed_from_everywhere() {
     // From inside the report.
     person.chromium.evaluate(&person.tab, "show('flights')");
     a_report_is_open(&mut person);
-    person.wait("document.querySelector('#recordings tbody').textContent.includes('goes on')");
+    person.wait(goes_on);
     person.chromium.evaluate(&person.tab, "document.querySelector('#report').focus(); true");
     person.key("l");
     person.wait("status.phase === 'landing'");
     // Whoever looks at the list sees there that the flight has ended.
-    let ended = "status.phase === 'standby' && document.querySelectorAll('#recordings tbody tr').length === 1 \
-        && !document.querySelector('#recordings tbody').textContent.includes('goes on')";
-    person.wait(ended);
+    let ended = "status.phase === 'standby' && document.querySelectorAll('#recordings tbody tr').length === 1";
+    person.wait(&format!("{ended} && !{goes_on}"));
 }
 
 /// A report is shown, and its script has begun to listen.

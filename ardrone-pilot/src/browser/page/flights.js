@@ -23,6 +23,7 @@ const flights = (() => {
 
   async function list() {
     const mine = ++round;
+    const flew = isAirborne();
     let files;
     try {
       files = await get("flights");
@@ -53,18 +54,22 @@ const flights = (() => {
     if (!isFirst) exchange(made);
     filter();
     note(files.length ? "" : "There is no recorded flight yet.");
-    const isOpen = ({ current, flights }) => current && flights.some(({ outcome }) => outcome === null);
-    if ([...summaries.values()].some(isOpen)) listAtItsEnd(mine);
+    const isOurs = ({ current, vehicle }) => current && vehicle === flight.vehicle;
+    const goesOn = [...summaries.values()].some((file) => isOurs(file) && file.flights.some(({ outcome }) => outcome === null));
+    if (files.some(({ current }) => current)) listAtChange(mine, flew, goesOn);
     chosen = chosen.filter((key) => body.querySelector(`input[value="${CSS.escape(key)}"]`));
     compare();
   }
 
-  // Lists again when the last flight has ended and its end is recorded, if that is still what is looked at.
-  function listAtItsEnd(mine) {
+  // Lists again when a flight has begun or ended, and until its end is recorded, if the list is still what is looked at.
+  function listAtChange(mine, flew, goesOn) {
     setTimeout(() => {
       if (view !== "flights" || mine !== round) return;
-      if (isAirborne()) listAtItsEnd(mine);
-      else list();
+      const flies = isAirborne();
+      // What has just begun is recorded soon.
+      if (flies && !flew) setTimeout(() => mine === round && list(), LATER);
+      else if (!flies && (flew || goesOn)) list();
+      else listAtChange(mine, flew, goesOn);
     }, LATER);
   }
 
