@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use serde_json::{Value, json};
 
@@ -22,6 +23,9 @@ pub struct SettingsFile {
     /// The settings that are in effect, those of the command line among them.
     pub in_effect: Settings,
 }
+
+/// One change at a time reads and writes: the pages of a fleet change one file, and of two changes at once one would be lost.
+static CHANGES: Mutex<()> = Mutex::new(());
 
 /// Why settings are not shown or not changed.
 #[derive(Debug, thiserror::Error)]
@@ -94,6 +98,8 @@ impl SettingsFile {
         let meaningless = |error: serde_json::Error| ChangeError::Meaningless(error.to_string());
         let changes: toml::Table = serde_json::from_str(text).map_err(meaningless)?;
         let system = |error| ChangeError::File(self.name(), error);
+        // It guards a file, which is whole whatever has panicked.
+        let _one_at_a_time = CHANGES.lock().unwrap_or_else(PoisonError::into_inner);
         let bytes = self.read_or_empty(text_file::read_bytes(&self.path))?;
         let text = std::str::from_utf8(&bytes).map_err(|_| {
             let why = "it is not UTF-8, and would not stay as it is";
@@ -152,6 +158,25 @@ mod tests {
         let error = file(&path).change(r#"{"fence":{"radius_m":2}}"#).unwrap_err().to_string();
         assert!(error.contains("not UTF-8"), "{error}");
         assert_eq!(fs::read(&path).unwrap(), text);
+    }
+
+    #[test]
+    fn of_changes_at_once_none_is_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = file(&folder.path().join("pilot.toml"));
+        let values = [("radius_m", 4.0), ("ceiling_m", 2.0), ("floor_m", 0.4)];
+        for _ in 0..20 {
+            fs::write(&file.path, "").unwrap();
+            std::thread::scope(|scope| {
+                for (name, value) in values {
+                    let change = format!(r#"{{"fence":{{"{name}":{value}}}}}"#);
+                    let file = &file;
+                    scope.spawn(move || file.change(&change).unwrap());
+                }
+            });
+            let text = fs::read_to_string(&file.path).unwrap();
+            assert!(values.iter().all(|(name, _)| text.contains(name)), "{text}");
+        }
     }
 
     /// A link stays one, and who may read the file may still; its first mark stays, too.
