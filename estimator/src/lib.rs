@@ -760,10 +760,11 @@ impl Estimator {
     }
 
     /// Altitude in metres of a drone that stands: of the last two the one that is nearer to the floor, because a single one may
-    /// be a wrong echo. Infinite if it has not been heard standing yet.
-    pub fn standing_altitude_m(&self) -> f64 {
+    /// be a wrong echo. `None` if it has not been heard standing yet.
+    pub fn standing_altitude_m(&self) -> Option<f64> {
         let [before_m, last_m] = self.standing_m;
-        if before_m.abs() < last_m.abs() { before_m } else { last_m }
+        let nearer_m = if before_m.abs() < last_m.abs() { before_m } else { last_m };
+        nearer_m.is_finite().then_some(nearer_m)
     }
 
     /// Whether navdata are plausible.

@@ -259,17 +259,16 @@ impl Vehicle {
     fn problems_of_the_sensors(&self, now: Duration) -> Option<NotReady> {
         self.demo()?;
         let trust = self.flight.estimator.trust();
-        let altitude_m = self.flight.estimator.standing_altitude_m();
         let heard = self.session.silence(now).is_some_and(|age| age <= OLDEST_NAVDATA);
         let old = heard && self.blind_for(now) > OLDEST_NAVDATA;
-        if trust != Trust::Sound {
-            Some(NotReady::Distrust(trust))
-        } else if old {
-            Some(NotReady::OldNavdata { age: self.blind_for(now) })
-        } else if self.on_ground() && altitude_m.abs() > HIGHEST_ON_GROUND_M {
-            Some(NotReady::NotOnFloor { altitude_m })
-        } else {
-            None
+        match self.flight.estimator.standing_altitude_m() {
+            _ if trust != Trust::Sound => Some(NotReady::Distrust(trust)),
+            _ if old => Some(NotReady::OldNavdata { age: self.blind_for(now) }),
+            _ if !self.on_ground() => None,
+            // A start may be called off and given again before the next packet; before the take-off it is asked again.
+            None => self.life.departure().map(|_| NotReady::Silent),
+            Some(altitude_m) => (altitude_m.abs() > HIGHEST_ON_GROUND_M)
+                .then_some(NotReady::NotOnFloor { altitude_m }),
         }
     }
 

@@ -242,8 +242,9 @@ fn one_wrong_echo_does_not_lift_a_drone_that_stands() {
         estimator.standing_altitude_m()
     };
     let read_m = [0.02, 2.4, 0.03, 1.1, 1.2];
-    let seen_m: Vec<f64> = (0..).zip(read_m).map(|(packet, m)| stand(packet, m)).collect();
-    assert_eq!(seen_m, [0.02, 0.02, 0.03, 0.03, 1.1]);
+    let seen_m: Vec<_> = (0..).zip(read_m).map(|(packet, m)| stand(packet, m)).collect();
+    assert_eq!(seen_m, [0.02, 0.02, 0.03, 0.03, 1.1].map(Some));
+    assert_eq!(Estimator::default().standing_altitude_m(), None);
 }
 
 #[test]

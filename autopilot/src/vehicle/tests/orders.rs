@@ -169,8 +169,6 @@ fn each_flights_end_is_told_once_and_before_the_next_one() {
     bench.accepted(plan(STAY));
     bench.accepted(START);
     bench.accepted(OperatorOrder::Land);
-    // Its height is not known before.
-    bench.hear();
     bench.accepted(START);
     assert_eq!(bench.vehicle.outcome(), None);
     let told: Vec<_> = std::iter::from_fn(|| {
