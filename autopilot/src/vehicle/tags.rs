@@ -99,7 +99,7 @@ impl Vehicle {
     }
 
     /// Checks that there is room for the tags that a plan declares, where tags are in use, and adds them to a
-    /// flight that has begun. A flight that begins later begins with them.
+    /// flight that has begun, and does not land yet. A flight that begins later begins with them.
     pub(super) fn take_tags_of(&mut self, plan: &Plan) -> Result<(), Refused> {
         let Some(tags) = &self.config.estimator.tags else { return Ok(()) };
         let declared = plan.tags().len();
@@ -107,7 +107,8 @@ impl Vehicle {
         if given + declared > MAX_TAGS {
             return Err(Refused::TooManyTags { declared, known: given });
         }
-        if !self.life.is_in_flight() && self.life.departure().is_none() {
+        let flies = self.life.is_in_flight() && !self.lands();
+        if !flies && self.life.departure().is_none() {
             return Ok(());
         }
         let estimator = &mut self.flight.estimator;

@@ -168,6 +168,15 @@ fn a_plan_that_is_loaded_in_the_air_brings_its_tags() {
     assert_eq!((known(&bench), bench.vehicle.mission()), (tags, steps.as_slice()));
     bench.accepted(plan_with_tags(&six[..5]));
     assert_eq!(known(&bench).len(), 8);
+    // From the landing on a plan is for the next flight, and brings its tags there.
+    bench.accepted(OperatorOrder::Land);
+    bench.accepted(plan_with_tags(&six));
+    assert_eq!(known(&bench).len(), 8);
+    bench.comes_down();
+    bench.until(5 * SECOND, |bench| bench.phase() == Phase::Standby);
+    bench.accepted(START);
+    let x_m: Vec<_> = known(&bench)[2..].iter().map(|tag| tag.place_m.x).collect();
+    assert_eq!(x_m, row);
 }
 
 #[test]
