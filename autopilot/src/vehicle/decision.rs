@@ -18,7 +18,7 @@ pub struct Decision {
     pub at: Duration,
     /// Phase of the flight.
     pub phase: Phase,
-    /// Index of the plan step being flown.
+    /// Index of the plan step that is flown in this tick, also if it ends here.
     pub step: Option<usize>,
     /// Predicted position and motion of the drone.
     pub state: Prediction,

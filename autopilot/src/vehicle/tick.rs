@@ -44,6 +44,7 @@ impl Vehicle {
             return;
         }
         self.offer_order(now);
+        let flown = self.life.due().map(|active| active.due.step);
         // The state is predicted once, so that everything below uses the same one.
         let state = self.state(now);
         self.feel_wind(&state, step_s);
@@ -82,7 +83,7 @@ impl Vehicle {
         self.decision = Some(Decision {
             at: now,
             phase: self.life.phase(),
-            step: self.life.due().map(|active| active.due.step),
+            step: flown,
             state,
             height_uncertainty_m: self.flight.estimator.height_uncertainty_m(now),
             worth: self.flight.estimator.worth(),
