@@ -163,6 +163,7 @@ fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
         "camera": status.camera,
         "step": step,
         "steps": steps,
+        "steps_done": status.steps_done,
         "mission_waits": status.mission_waits,
         "manual": status.manual.map(ManualControl::name),
         "controls": status.controls.map(|operator| operator.to_string()),

@@ -28,8 +28,6 @@ const EVENTS: usize = 100;
 #[derive(Debug)]
 pub(super) struct Snapshot {
     steps: Vec<Step>,
-    /// They came after the landing, for the next flight.
-    is_for_next: bool,
     limits: FlightLimits,
     vehicle: VehicleName,
     /// All vehicles, and those that the page can show in full.
@@ -60,7 +58,6 @@ impl Snapshot {
         let name = plan.map_or("", Plan::name);
         Self {
             steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
-            is_for_next: false,
             limits: config.limits,
             vehicle: config.name,
             fleet: fleet.to_vec(),
@@ -97,11 +94,15 @@ impl Snapshot {
             }
             Telemetry::Event(_) => self.remember(&object),
             Telemetry::Mission { name, steps, steps_done, .. } => {
-                self.is_for_next = steps_done.is_none();
                 if *steps != self.steps {
                     self.steps.clone_from(steps);
                     self.name = printable(name).into_owned();
                     self.notes.clear();
+                    // The step of the last status is one of the mission before.
+                    if let Some(status) = self.status.as_object_mut() {
+                        status.insert("step".to_owned(), Value::Null);
+                        status.insert("steps_done".to_owned(), json!(steps_done));
+                    }
                     // The page redraws everything.
                     return self.so_far();
                 }
@@ -204,7 +205,6 @@ impl Snapshot {
             "plan": self.name,
             "notes": self.notes,
             "steps": steps,
-            "is_for_next": self.is_for_next,
             "fence": {
                 "text": self.limits.border.to_string(),
                 // To a millimetre: a circle is drawn with many corners.
@@ -255,23 +255,6 @@ mod tests {
         let vehicles = [VehicleName::default()];
         let config = VehicleConfig::default();
         Snapshot::new(Some(plan), &config, "192.168.1.1", &vehicles, &vehicles)
-    }
-
-    #[test]
-    fn a_mission_is_for_the_next_flight_until_that_begins() {
-        let plan = Plan::parse("p", "takeoff\nland\n").unwrap();
-        let mut snapshot = of(&plan);
-        for steps_done in [None, Some(0)] {
-            let steps = plan.steps().to_vec();
-            let mission = Telemetry::Mission { name: "p".to_owned(), id: None, steps, steps_done };
-            let content = Content::Telemetry(Duration::ZERO, mission, TickHealth::default());
-            let vehicle = VehicleName::default();
-            assert_eq!(
-                snapshot.take_in(&Message { vehicle, content })["steps_done"],
-                json!(steps_done)
-            );
-            assert_eq!(snapshot.so_far()["is_for_next"], steps_done.is_none());
-        }
     }
 
     #[test]

@@ -262,6 +262,7 @@ mod tests {
             phase: Phase::Flying,
             step: Some(2),
             steps: 6,
+            steps_done: Some(2),
             mission_waits: false,
             landing: None,
             emergency: false,

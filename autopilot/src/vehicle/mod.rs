@@ -425,6 +425,11 @@ impl Vehicle {
         &self.readiness
     }
 
+    /// How many steps of the mission are done; `None` if it is for the next flight.
+    fn steps_done(&self) -> Option<usize> {
+        (!self.flight.mission_is_for_next).then_some(self.flight.report().steps_done)
+    }
+
     /// The mission's steps.
     pub fn mission(&self) -> &[Step] {
         self.mission.steps()
@@ -452,6 +457,7 @@ impl Vehicle {
             camera: self.camera,
             step: self.life.due().map(|active| active.due.step),
             steps: self.mission.steps().len(),
+            steps_done: self.steps_done(),
             mission_waits: self.life.manual().pauses_mission(),
             manual: self.life.manual().control(now),
             controls: self.controls.holder(),

@@ -181,8 +181,7 @@ impl Vehicle {
                 name: self.mission.name().to_owned(),
                 id: self.mission.id(),
                 steps: self.mission.steps().to_vec(),
-                steps_done: (!self.flight.mission_is_for_next)
-                    .then_some(self.flight.report().steps_done),
+                steps_done: self.steps_done(),
             });
         }
         if let Some(event) = self.events.pop_front() {

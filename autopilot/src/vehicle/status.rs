@@ -29,6 +29,8 @@ pub struct Status {
     pub step: Option<usize>,
     /// Number of plan steps.
     pub steps: usize,
+    /// How many of them are done, in the current or last flight; `None` if they are for the next one.
+    pub steps_done: Option<usize>,
     /// The mission is paused: an operator holds or flies the drone.
     pub mission_waits: bool,
     /// What an operator does with the drone by hand, while the mission is paused.

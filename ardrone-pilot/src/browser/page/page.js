@@ -24,7 +24,6 @@ let heard = 0; // time of the last message
 let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended, in words
-let stepsDone = 0; // as far as is known
 let trail = []; // [right, forward, up] in metres
 let trailOfFlight = 0; // where in it the last flight begins
 let me = null; // our name among the operators
@@ -73,16 +72,11 @@ function take(message) {
       // It has taken off, maybe again.
       if (message.flight_time_s !== null && message.flight_time_s < (status?.flight_time_s ?? Infinity)) trailOfFlight = trail.length;
       status = message;
-      // A landing that is no step undoes none; the next flight does.
-      stepsDone = flight.is_for_next ? 0 : (message.step ?? (message.phase === "standby" ? 0 : stepsDone));
       clock = Math.max(clock, message.t_s * 1000 - performance.now());
       behind = clock - (message.t_s * 1000 - performance.now());
       if (message.pose) extendTrail(message.pose);
       decide(message);
       plots.add(message);
-      break;
-    case "mission":
-      flight.is_for_next = message.steps_done === null;
       break;
     case "event":
       if (message.warning) dangers.warn(message.text);
@@ -125,7 +119,6 @@ function begin(message) {
   decided = "";
   // Another run of the program has begun, or this one goes on.
   over = status = null;
-  stepsDone = 0;
   // The end of a path says more than its beginning.
   $("plan").textContent = message.plan.split(/[\\/]/).at(-1) || "ardrone-pilot";
   $("plan").title = message.plan;
@@ -174,8 +167,8 @@ function finish(message) {
   const steps = `${message.steps_done} of ${message.steps} steps`;
   const log = message.log ? ` Log: ${message.log}` : "";
   over = `Over: ${message.outcome}; ${steps}.${log}`;
-  // Of a mission for the next flight nothing is done.
-  stepsDone = flight.is_for_next ? 0 : message.steps_done;
+  // No other status follows where the program ends. Of a mission for the next flight nothing is done.
+  if (status && status.steps_done !== null) Object.assign(status, { step: null, steps_done: message.steps_done });
 }
 
 // Adds a line below the others, which stay where they are: nothing moves under the eye.
@@ -405,9 +398,10 @@ function drawGauges() {
 }
 
 function drawSteps() {
+  // Settings before the step that is flown are done with it.
+  const stepsDone = status.step ?? status.steps_done ?? 0;
   [...$("steps").children].forEach((item, index) => {
-    // The step of a flight that still lands is none of a mission for the next one.
-    const now = !flight.is_for_next && index === status.step;
+    const now = index === status.step;
     const done = index < stepsDone;
     const name = done ? "done" : now ? "now" : "";
     if (item.className === name) return;

@@ -55,6 +55,8 @@ fn a_plan_that_comes_too_late_for_a_flight_is_counted_for_the_next() {
         }
         bench.until(SECOND, lands);
         bench.accepted(late.clone());
+        let status = bench.vehicle.status(bench.now);
+        assert_eq!((status.step, status.steps_done), (None, None), "it is none of the next one");
         bench.comes_down();
         bench.until(5 * SECOND, |bench| bench.phase() == Phase::Standby);
         assert_eq!(bench.outcomes, [outcome]);

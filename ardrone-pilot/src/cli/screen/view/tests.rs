@@ -19,6 +19,7 @@ fn status(share: f64) -> Status {
         phase: Phase::Flying,
         step: Some(2),
         steps: 4,
+        steps_done: Some(2),
         mission_waits: false,
         landing: None,
         emergency: false,
