@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ardrone_pilot::drive::{self, Driver, NoRoom, POLL, Passed, Simulated};
 use ardrone_pilot::fleet::{self, Fleet, Member, SimulatedFleet, SimulatedMember};
-use ardrone_pilot::flight::{Beside, Content, FarAgents, Flight, Trouble};
+use ardrone_pilot::flight::{Connections, Content, Flight, RemoteAgents, Trouble};
 use ardrone_pilot::recording::{Header, Log, Recorder};
 use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
@@ -240,7 +240,7 @@ struct Elsewhere {
     answers: VecDeque<Line>,
 }
 
-impl FarAgents for Elsewhere {
+impl RemoteAgents for Elsewhere {
     fn say(&mut self, Said { line, .. }: &Said) -> Result<(), NoRoom> {
         self.heard += 1;
         if self.heard <= 2 {
@@ -271,15 +271,15 @@ fn messages_of_a_flight_are_in_its_log_and_report_and_lost_ones_are_told() {
     // It waits where it takes off, goes a metre forward, and lands there.
     let place = |y_m| Pose { x_m: 0.0, y_m, z_m: 0.8, yaw_deg: 0.0 };
     let places = vec![place(0.0), place(1.0), place(1.0)];
-    let beside = Beside {
+    let connections = Connections {
         recorder: Some(recorder),
         agent: Some(MissionAgent::new("traveller", "left", places, false).unwrap()),
-        far_agents: Some(Box::new(Elsewhere::default())),
+        remote_agents: Some(Box::new(Elsewhere::default())),
         seat: None,
     };
     let runtime = super::udp::runtime();
     let flight =
-        Flight::start(&runtime, None, &config, &super::udp::address(&mock), beside).unwrap();
+        Flight::start(&runtime, None, &config, &super::udp::address(&mock), connections).unwrap();
     let mut lost = Vec::new();
     for message in flight.messages() {
         if let Content::Trouble(_, trouble @ Trouble::Unsaid(..)) = message.content {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use ardrone_pilot::flight::{Beside, Flight};
+use ardrone_pilot::flight::{Connections, Flight};
 use autopilot::VehicleConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::{DroneConfig, WorldConfig};
@@ -242,7 +242,7 @@ fn a_flight_that_is_dropped_lands() {
     let relay = Relay::start(&WorldConfig::default());
     let (runtime, config) = (crate::udp::runtime(), VehicleConfig::default());
     let flight =
-        Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), Beside::default())
+        Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), Connections::default())
             .unwrap();
     flying(&relay);
     drop(flight);

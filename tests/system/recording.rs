@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::time::Duration;
 
-use ardrone_pilot::flight::{Beside, Flight};
+use ardrone_pilot::flight::{Connections, Flight};
 use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter, Progress, Recorder};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
@@ -119,7 +119,7 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
         Some(plan(PLAN)),
         &config,
         &address,
-        Beside { recorder: Some(recorder), ..Beside::default() },
+        Connections { recorder: Some(recorder), ..Connections::default() },
     )
     .unwrap();
     assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);

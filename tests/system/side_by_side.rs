@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use ardrone_pilot::drive::{Driver, Passed, Simulated};
-use ardrone_pilot::flight::{Beside, Content, Flight};
+use ardrone_pilot::flight::{Connections, Content, Flight};
 use ardrone_pilot::recording::{Header, Log, Recorder, file_name};
 use ardrone_pilot::settings::Settings;
 use autopilot::outcome::Outcome;
@@ -96,7 +96,7 @@ fn over_udp_two_fly_at_once_into_one_folder() {
             flown,
             &config,
             &address,
-            Beside { recorder: Some(recorder), ..Beside::default() },
+            Connections { recorder: Some(recorder), ..Connections::default() },
         )
         .unwrap();
         (config.name, flight, recording, mock)
@@ -139,7 +139,10 @@ fn two_fly_until_a_signal() {
         let mock = MockDrone::start(&world(1), Ports::LOOPBACK).unwrap();
         let flown = Some(plan("takeoff\nsetStayTime 60\ngoto 0 0 0 0\nland\n"));
         let address = crate::udp::address(&mock);
-        (Flight::start(&runtime, flown, &named(name), &address, Beside::default()).unwrap(), mock)
+        (
+            Flight::start(&runtime, flown, &named(name), &address, Connections::default()).unwrap(),
+            mock,
+        )
     });
     while flights.iter().any(|(_, mock)| mock.truth().phase != Phase::Flying) {
         std::thread::sleep(Duration::from_millis(20));

@@ -1,7 +1,7 @@
 //! Flights over real sockets.
 
 use ardrone_link::DroneAddress;
-use ardrone_pilot::flight::{Beside, Content, Flight};
+use ardrone_pilot::flight::{Connections, Content, Flight};
 use ardrone_pilot::runtime::{Runtime, SecondSignal};
 use autopilot::VehicleConfig;
 use autopilot::outcome::Outcome;
@@ -35,9 +35,14 @@ fn a_flight_over_udp_is_the_simulated_one() {
 
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
     let (runtime, config) = (runtime(), VehicleConfig::default());
-    let flight =
-        Flight::start(&runtime, Some(plan(SQUARE)), &config, &address(&mock), Beside::default())
-            .unwrap();
+    let flight = Flight::start(
+        &runtime,
+        Some(plan(SQUARE)),
+        &config,
+        &address(&mock),
+        Connections::default(),
+    )
+    .unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
         if let Content::Telemetry(_, Telemetry::Waypoint(waypoint), _) = message.content {
@@ -66,7 +71,8 @@ fn ends(scenario: &str) -> (Outcome, Truth) {
     let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
     let (runtime, config) = (runtime(), VehicleConfig::default());
     let flight =
-        Flight::start(&runtime, Some(flown), &config, &address(&mock), Beside::default()).unwrap();
+        Flight::start(&runtime, Some(flown), &config, &address(&mock), Connections::default())
+            .unwrap();
     let outcome = flight.finish().unwrap().outcome;
     (outcome, mock.truth())
 }

@@ -9,7 +9,7 @@ use autopilot::vehicle::VehicleName;
 use crossbeam_channel::{Receiver, never};
 
 use crate::fleet::Fleet;
-use crate::flight::{FarAgents, Places};
+use crate::flight::{Places, RemoteAgents};
 use crate::network::{News, Roster, Seen, Told, Totals, UnknownVehicle};
 use crate::runtime::Runtime;
 
@@ -88,8 +88,8 @@ impl Elsewhere {
     }
 
     /// How the agent of the vehicle with this place reaches those of vehicles elsewhere.
-    pub(super) fn far_agents(&mut self, place: usize) -> Option<Box<dyn FarAgents>> {
-        self.connection.as_mut()?.far_agents(place)
+    pub(super) fn remote_agents(&mut self, place: usize) -> Option<Box<dyn RemoteAgents>> {
+        self.connection.as_mut()?.remote_agents(place)
     }
 
     /// What there is to tell; nothing without a network.
@@ -166,7 +166,7 @@ impl Configured {
 struct Connection(Bridge);
 
 impl Connection {
-    fn far_agents(&mut self, place: usize) -> Option<Box<dyn FarAgents>> {
+    fn remote_agents(&mut self, place: usize) -> Option<Box<dyn RemoteAgents>> {
         #[cfg(feature = "zenoh")]
         {
             let talk = self.0.take_talk(place)?;

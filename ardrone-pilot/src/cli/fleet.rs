@@ -12,7 +12,6 @@ use mock_drone::server::{Air, MockDrone, Ports};
 use serde_json::{Value, json};
 
 use super::arguments::FlyFleet;
-use super::crew::Crew;
 use super::elsewhere::{self, Configured, Elsewhere};
 use super::fly::{
     SETTINGS, Station, UNSHOWN, Watch, make_folder, mock_address, record_to, since_epoch,
@@ -21,13 +20,14 @@ use super::keys::{self, Keys};
 use super::program::{self, AtEnd, Lines};
 use super::progress::Progress;
 use super::prompt::PromptLine;
+use super::recipients::Recipients;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, terminal};
 use crate::browser::{self, Listener, PageConfig, Planning, SettingsFile};
 use crate::fleet::{Fleet, FleetError, Member};
 use crate::flight::{
-    Beside, Content, FarAgents, FinishedFlight, Flight, FlightError, Message, Seat,
+    Connections, Content, FinishedFlight, Flight, FlightError, Message, RemoteAgents, Seat,
 };
 use crate::json;
 use crate::mavlink::MavlinkServer;
@@ -119,18 +119,18 @@ pub(super) fn run(arguments: &FlyFleet, warnings: &Warnings) -> Result<u8, Comma
         listener.open(&runtime, page, flying.iter().map(Under::on_page).collect())
     };
     let browser = listener.map(open);
-    let crew = Crew::new(flying.iter().map(|under| under.flight.controls()).collect());
+    let recipients = Recipients::new(flying.iter().map(|under| under.flight.controls()).collect());
     let limits = here[0].config.limits;
     let wanted = !plain && !arguments.interfaces.json && std::io::stdin().is_terminal();
     let all_limits = here.iter().map(|member| member.config.limits);
-    let screen = || Screen::start(all_limits, crew.clone(), warnings, prompt.clone());
+    let screen = || Screen::start(all_limits, recipients.clone(), warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
-    let keys = Keys::start(crew.clone(), &limits, prompt);
+    let keys = Keys::start(recipients.clone(), &limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
         watch.print_line(keys::HELP_OF_FLEET);
     } else if let Some((lines, at_end)) = input(arguments, &here)
-        && let Err(error) = program::read_orders(lines, at_end, &limits, crew)
+        && let Err(error) = program::read_orders(lines, at_end, &limits, recipients)
     {
         watch.warn(&format!("no orders can be read: {error}"));
     }
@@ -223,7 +223,7 @@ impl Begin<'_> {
         let seats = seats.into_iter().enumerate().filter(|(place, _)| vehicles[*place].is_here);
         let begin = prepared.into_iter().zip(seats).map(|(one, (place, seat))| {
             // Those that have begun land if one cannot.
-            one.begin(self, seat, elsewhere.far_agents(place), progress)
+            one.begin(self, seat, elsewhere.remote_agents(place), progress)
         });
         let begun = begin.collect::<Result<Vec<_>, FlightError>>()?;
         let (flying, shown) = begun.into_iter().unzip();
@@ -258,12 +258,13 @@ impl<'a> Prepared<'a> {
         self,
         Begin { runtime, has_page, .. }: &Begin<'_>,
         seat: Seat,
-        far_agents: Option<Box<dyn FarAgents>>,
+        remote_agents: Option<Box<dyn RemoteAgents>>,
         progress: &mut Progress,
     ) -> Result<(Under<'a>, Shown), FlightError> {
         let Prepared { member, agent, mock, drone, station, recorder, recording } = self;
-        let beside = Beside { recorder, agent, far_agents, seat: Some(seat) };
-        let flight = Flight::start(runtime, member.plan.clone(), &member.config, &drone, beside)?;
+        let connections = Connections { recorder, agent, remote_agents, seat: Some(seat) };
+        let flight =
+            Flight::start(runtime, member.plan.clone(), &member.config, &drone, connections)?;
         let controls = flight.controls();
         let mavlink = station.and_then(|station| station.open(runtime, &controls, progress));
         let video = (*has_page).then(|| camera(runtime, member, mock.as_ref()));

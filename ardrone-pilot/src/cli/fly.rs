@@ -12,17 +12,17 @@ use mock_drone::server::{MockDrone, Ports};
 use time::UtcDateTime;
 
 use super::arguments::{Fly, WhichDrone};
-use super::crew::Crew;
 use super::keys::{self, Keys};
 use super::mavlink::Wanted;
 use super::program::{self, AtEnd, Lines};
 use super::progress::Progress;
 use super::prompt::PromptLine;
+use super::recipients::Recipients;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, read, read_settings, terminal};
 use crate::browser::{Browser, Listener, PageConfig, Planning, SettingsFile, Shown};
-use crate::flight::{Beside, Content, Controls, Flight, Message};
+use crate::flight::{Connections, Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
 use crate::network;
@@ -82,8 +82,8 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
     let video = watch_video(&runtime, arguments, mock.as_ref(), recording.as_ref());
-    let beside = Beside { recorder, ..Beside::default() };
-    let flight = Flight::start(&runtime, plan.clone(), &config, &drone, beside)?;
+    let connections = Connections { recorder, ..Connections::default() };
+    let flight = Flight::start(&runtime, plan.clone(), &config, &drone, connections)?;
     let controls = flight.controls();
     let open = |listener: Listener| {
         let shown = Shown {
@@ -98,14 +98,14 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let browser = listener.map(open);
     let mavlink = mavlink.and_then(|station| station.open(&runtime, &controls, &mut progress));
-    let crew = Crew::new(vec![controls.clone()]);
+    let recipients = Recipients::new(vec![controls.clone()]);
     let wanted = !plain && !arguments.interfaces.json && std::io::stdin().is_terminal();
-    let screen = || Screen::start([config.limits], crew.clone(), warnings, prompt.clone());
+    let screen = || Screen::start([config.limits], recipients.clone(), warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
-    let keys = Keys::start(crew.clone(), &config.limits, prompt);
+    let keys = Keys::start(recipients.clone(), &config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
-    } else if let Err(error) = read_orders(arguments, &config.limits, crew) {
+    } else if let Err(error) = read_orders(arguments, &config.limits, recipients) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
     let (steps, truths) = (Vec::new(), Vec::new());
@@ -181,7 +181,11 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
 }
 
 /// Reads orders from standard input if no keys are read from it.
-fn read_orders(arguments: &Fly, limits: &FlightLimits, crew: Crew) -> std::io::Result<()> {
+fn read_orders(
+    arguments: &Fly,
+    limits: &FlightLimits,
+    recipients: Recipients,
+) -> std::io::Result<()> {
     let lines = match (arguments.interfaces.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,
@@ -192,7 +196,7 @@ fn read_orders(arguments: &Fly, limits: &FlightLimits, crew: Crew) -> std::io::R
         || arguments.interfaces.ui.is_some()
         || arguments.interfaces.mavlink.is_given();
     let at_end = if elsewhere { AtEnd::GoOn } else { AtEnd::Quit };
-    program::read_orders(lines, at_end, limits, crew)
+    program::read_orders(lines, at_end, limits, recipients)
 }
 
 /// MAVLink before the flight.

@@ -18,8 +18,8 @@ use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
 };
 
-use super::crew::Crew;
 use super::prompt::{Edited, Prompt, PromptLine};
+use super::recipients::Recipients;
 use super::terminal;
 use crate::typed::{self, Typed, TypedError};
 
@@ -116,7 +116,11 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Starts reading keys, if standard input is a terminal.
-    pub(super) fn start(crew: Crew, limits: &FlightLimits, line: PromptLine) -> Option<Self> {
+    pub(super) fn start(
+        recipients: Recipients,
+        limits: &FlightLimits,
+        line: PromptLine,
+    ) -> Option<Self> {
         if !stdin().is_terminal() {
             return None;
         }
@@ -132,7 +136,7 @@ impl Keys {
             let (ended, limits) = (Arc::clone(&ended), *limits);
             std::thread::Builder::new()
                 .name("keys".to_owned())
-                .spawn(move || read_keys(crew, &limits, line, &ended))
+                .spawn(move || read_keys(recipients, &limits, line, &ended))
         };
         let keys = Self { ended, thread: thread.ok(), before };
         keys.thread.is_some().then_some(keys)
@@ -159,7 +163,12 @@ impl Drop for Keys {
     }
 }
 
-fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &AtomicBool) {
+fn read_keys(
+    mut recipients: Recipients,
+    limits: &FlightLimits,
+    line: PromptLine,
+    ended: &AtomicBool,
+) {
     let start = Instant::now();
     let answers = line.clone();
     let mut prompt = Prompt::new(line);
@@ -184,7 +193,7 @@ fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &At
             _ = answers.take_answer();
             if prompt.is_open() {
                 if let Edited::Entered(line) = prompt.key(key, typed::completions)
-                    && let Err(said) = obey(&line, limits, &crew)
+                    && let Err(said) = obey(&line, limits, &recipients)
                 {
                     answers.show_answer(said);
                 }
@@ -193,12 +202,12 @@ fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &At
             match keymap.action(start.elapsed(), unshifted(key)) {
                 Some(Action::Type) => prompt.open(),
                 Some(Action::Choose(place)) => {
-                    let is_there = crew.choose(place);
+                    let is_there = recipients.choose(place);
                     if is_there {
-                        answers.show_answer(format!("orders are for {crew}"));
+                        answers.show_answer(format!("orders are for {recipients}"));
                     }
                 }
-                Some(action) => act(&crew, action),
+                Some(action) => act(&recipients, action),
                 None => {}
             }
         }
@@ -206,9 +215,9 @@ fn read_keys(mut crew: Crew, limits: &FlightLimits, line: PromptLine, ended: &At
 }
 
 /// Carries out a typed line, or returns what is said to it.
-fn obey(line: &str, limits: &FlightLimits, crew: &Crew) -> Result<(), String> {
+fn obey(line: &str, limits: &FlightLimits, recipients: &Recipients) -> Result<(), String> {
     let told = |error: &dyn std::error::Error| format!(":{line}\n{}", terminal::Causes(error));
-    let (named, order) = crew.named_first(line);
+    let (named, order) = recipients.named_first(line);
     match typed::parse(order, limits) {
         Ok(Typed::Order(order)) if named.takes_as_one(&order) => {
             return named.ask(Operator::TERMINAL, &order).map_err(|error| told(&error));
@@ -227,10 +236,10 @@ fn obey(line: &str, limits: &FlightLimits, crew: &Crew) -> Result<(), String> {
     })
 }
 
-fn act(crew: &Crew, action: Action) {
+fn act(recipients: &Recipients, action: Action) {
     let taken = match action {
         // Held keys repeat, so their answers are not awaited.
-        Action::Order(order @ OperatorOrder::Steer(_)) => match crew.only() {
+        Action::Order(order @ OperatorOrder::Steer(_)) => match recipients.only() {
             Ok(controls) => controls.order(Operator::TERMINAL, order),
             // Nobody steers several at once.
             Err(error) => {
@@ -238,8 +247,8 @@ fn act(crew: &Crew, action: Action) {
                 Ok(())
             }
         },
-        Action::Order(order) => crew.ask(Operator::TERMINAL, &order),
-        Action::Stop if crew.everyone().quit() => Ok(()),
+        Action::Order(order) => recipients.ask(Operator::TERMINAL, &order),
+        Action::Stop if recipients.everyone().quit() => Ok(()),
         Action::Stop => Err(Refused::Left),
         Action::Confirm => {
             tracing::warn!(

@@ -3,7 +3,6 @@
 mod arguments;
 mod check;
 mod check_fleet;
-mod crew;
 mod elsewhere;
 mod fleet;
 mod fly;
@@ -12,6 +11,7 @@ mod mavlink;
 mod program;
 mod progress;
 mod prompt;
+mod recipients;
 mod screen;
 mod selftest;
 mod summary;

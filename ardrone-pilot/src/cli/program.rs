@@ -9,7 +9,7 @@ use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use serde_json::{Value, json};
 
-use super::crew::Crew;
+use super::recipients::Recipients;
 use super::terminal;
 use crate::ordered;
 use crate::typed::{self, Typed};
@@ -54,7 +54,7 @@ pub(super) fn read_orders(
     lines: Lines,
     at_end: AtEnd,
     limits: &FlightLimits,
-    crew: Crew,
+    recipients: Recipients,
 ) -> std::io::Result<()> {
     let limits = *limits;
     let desk = Desk::default();
@@ -77,13 +77,13 @@ pub(super) fn read_orders(
         let mut input = BufReader::new(std::io::stdin());
         while let Some(line) = next_line(&mut input) {
             let (caller, wanted) = match lines {
-                Lines::Json => parse_json(line, &limits, &crew),
-                Lines::Typed => parse_typed(line, &limits, &crew),
+                Lines::Json => parse_json(line, &limits, &recipients),
+                Lines::Typed => parse_typed(line, &limits, &recipients),
             };
             desk.take(caller, wanted, &waiting);
         }
         if at_end == AtEnd::Quit {
-            desk.stop(|| crew.quit());
+            desk.stop(|| recipients.quit());
         }
     })?;
     Ok(())
@@ -92,8 +92,8 @@ pub(super) fn read_orders(
 /// What a line asks for, and of whom.
 #[derive(Debug, Clone)]
 enum Wanted {
-    Order(Crew, OperatorOrder),
-    Quit(Crew),
+    Order(Recipients, OperatorOrder),
+    Quit(Recipients),
 }
 
 /// Who gets the answer to a line.
@@ -128,7 +128,7 @@ impl Caller {
 #[derive(Debug)]
 struct Waiting {
     caller: Caller,
-    whose: Crew,
+    whose: Recipients,
     order: OperatorOrder,
     landings: u64,
 }
@@ -263,13 +263,13 @@ fn skip_line(input: &mut impl BufRead) -> Option<()> {
 fn parse_typed(
     line: Result<String, TooLong>,
     limits: &FlightLimits,
-    crew: &Crew,
+    recipients: &Recipients,
 ) -> (Caller, Result<Wanted, String>) {
     let line = match line {
         Ok(line) => line,
         Err(error) => return (Caller::Typed(String::new()), Err(error.to_string())),
     };
-    let (whose, order) = crew.named_first(&line);
+    let (whose, order) = recipients.named_first(&line);
     let wanted = match typed::parse(order, limits) {
         Ok(Typed::Order(order)) => Ok(Wanted::Order(whose, order)),
         Ok(Typed::Quit) => Ok(Wanted::Quit(whose)),
@@ -281,12 +281,12 @@ fn parse_typed(
 fn parse_json(
     line: Result<String, TooLong>,
     limits: &FlightLimits,
-    crew: &Crew,
+    recipients: &Recipients,
 ) -> (Caller, Result<Wanted, String>) {
-    let answer = |id: Value, whose: &Crew| {
+    let answer = |id: Value, whose: &Recipients| {
         Caller::Json(json!({ "type": "answer", "id": id, "vehicle": whose.vehicle() }))
     };
-    let unnamed = |reason: String| (answer(Value::Null, crew), Err(reason));
+    let unnamed = |reason: String| (answer(Value::Null, recipients), Err(reason));
     let line = match line {
         Ok(line) => line,
         Err(error) => return unnamed(error.to_string()),
@@ -298,12 +298,12 @@ fn parse_json(
     let mut take = |key| object.as_object_mut().and_then(|object| object.remove(key));
     let id = take("id").unwrap_or(Value::Null);
     let whose = match take("vehicle") {
-        None => Ok(crew.clone()),
-        Some(name) => name.as_str().and_then(|name| crew.named(name)).ok_or(name),
+        None => Ok(recipients.clone()),
+        Some(name) => name.as_str().and_then(|name| recipients.named(name)).ok_or(name),
     };
     let whose = match whose {
         Ok(whose) => whose,
-        Err(name) => return (answer(id, crew), Err(format!("there is no vehicle {name}"))),
+        Err(name) => return (answer(id, recipients), Err(format!("there is no vehicle {name}"))),
     };
     let wanted = match object.get("order").and_then(Value::as_str) {
         Some("quit") => Ok(Wanted::Quit(whose.clone())),
@@ -317,15 +317,16 @@ fn parse_json(
 mod tests {
     use autopilot::vehicle::{Place, VehicleName};
 
-    use super::super::crew::NoneChosen;
+    use super::super::recipients::NoneChosen;
     use super::*;
     use crate::flight::Controls;
 
     /// What is ordered of whom; no order is the end.
-    type Read = Result<Option<(Crew, OperatorOrder)>, String>;
+    type Read = Result<Option<(Recipients, OperatorOrder)>, String>;
 
-    fn read(line: &str, crew: &Crew) -> (Caller, Read) {
-        let (caller, wanted) = parse_json(Ok(line.to_owned()), &FlightLimits::default(), crew);
+    fn read(line: &str, recipients: &Recipients) -> (Caller, Read) {
+        let (caller, wanted) =
+            parse_json(Ok(line.to_owned()), &FlightLimits::default(), recipients);
         let wanted = wanted.map(|wanted| match wanted {
             Wanted::Order(whose, order) => Some((whose, order)),
             Wanted::Quit(_) => None,
@@ -333,16 +334,16 @@ mod tests {
         (caller, wanted)
     }
 
-    fn fleet() -> Crew {
+    fn fleet() -> Recipients {
         let named = |name: &str| Controls::of_nobody(name.parse().unwrap());
-        Crew::new(["left", "right"].map(named).into())
+        Recipients::new(["left", "right"].map(named).into())
     }
 
     #[test]
     fn an_order_names_its_vehicle_of_several() {
-        let crew = fleet();
+        let recipients = fleet();
         let whose = |line: &str| {
-            let (caller, wanted) = read(line, &crew);
+            let (caller, wanted) = read(line, &recipients);
             let Caller::Json(answer) = caller else { panic!() };
             (answer["vehicle"].clone(), wanted.map(|order| order.unwrap().0.to_string()))
         };
@@ -353,7 +354,7 @@ mod tests {
         let typed = |line: &str| match parse_typed(
             Ok(line.to_owned()),
             &FlightLimits::default(),
-            &crew,
+            &recipients,
         )
         .1
         {
@@ -367,35 +368,35 @@ mod tests {
     #[test]
     fn a_vehicle_that_is_called_like_an_order_takes_none_away() {
         let named = |name: &str| Controls::of_nobody(name.parse().unwrap());
-        let crew = Crew::new(["land", "goto", "cut"].map(named).into());
+        let recipients = Recipients::new(["land", "goto", "cut"].map(named).into());
         for line in ["land", "cut", "goto 1 0 0 0"] {
-            let (whose, order) = crew.named_first(line);
+            let (whose, order) = recipients.named_first(line);
             assert_eq!((whose.to_string().as_str(), order), ("all vehicles", line));
         }
     }
 
     #[test]
     fn several_take_only_what_each_can_do_where_it_is() {
-        let (crew, left) = (fleet(), fleet().named("left").unwrap());
+        let (recipients, left) = (fleet(), fleet().named("left").unwrap());
         for order in [OperatorOrder::Hold, OperatorOrder::Land, OperatorOrder::Cut] {
-            assert!(crew.takes_as_one(&order) && !left.takes_as_one(&order), "{order:?}");
+            assert!(recipients.takes_as_one(&order) && !left.takes_as_one(&order), "{order:?}");
         }
-        assert!(!crew.takes_as_one(&OperatorOrder::Start { when_ready: true }));
-        assert_eq!(crew.only().err(), Some(NoneChosen));
+        assert!(!recipients.takes_as_one(&OperatorOrder::Start { when_ready: true }));
+        assert_eq!(recipients.only().err(), Some(NoneChosen));
         assert_eq!(left.only().unwrap().vehicle().as_str(), "left");
-        let mut chosen = crew;
+        let mut chosen = recipients;
         assert!(chosen.choose(2) && chosen.to_string() == "right");
         assert!(!chosen.choose(3) && chosen.to_string() == "right");
         assert!(chosen.choose(0) && chosen.only().is_err());
-        let mut alone = Crew::new(vec![Controls::of_nobody(VehicleName::default())]);
+        let mut alone = Recipients::new(vec![Controls::of_nobody(VehicleName::default())]);
         assert!(!alone.choose(1) && alone.only().is_ok());
     }
 
     #[test]
     fn objects_are_orders() {
-        let crew = Crew::new(vec![Controls::of_nobody(VehicleName::default())]);
+        let recipients = Recipients::new(vec![Controls::of_nobody(VehicleName::default())]);
         let requested = |line: &str| {
-            let (caller, wanted) = read(line, &crew);
+            let (caller, wanted) = read(line, &recipients);
             let answer = json!({ "type": "answer", "id": 7, "vehicle": "ardrone" });
             assert_eq!(caller, Caller::Json(answer));
             wanted.map(|order| order.map(|(_, order)| order))

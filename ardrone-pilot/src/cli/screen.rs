@@ -21,8 +21,8 @@ use ratatui::{Terminal, TerminalOptions, Viewport};
 use tracing_subscriber::fmt::MakeWriter;
 
 use self::view::{View, Views};
-use super::crew::Crew;
 use super::prompt::PromptLine;
+use super::recipients::Recipients;
 use super::terminal;
 use crate::flight::{Content, Message};
 use crate::network::Seen;
@@ -42,17 +42,17 @@ pub(super) struct Screen {
     terminal: ManuallyDrop<Terminal<CrosstermBackend<Stderr>>>,
     area: Rect,
     views: Views,
-    crew: Crew,
+    recipients: Recipients,
     warnings: Warnings,
     prompt: PromptLine,
 }
 
 impl Screen {
-    /// Takes over the terminal for the vehicles of a crew, with the limits of each; `None` if it is too small or does not
+    /// Takes over the terminal for these vehicles, with the limits of each; `None` if it is too small or does not
     /// support it.
     pub(super) fn start(
         limits: impl IntoIterator<Item = FlightLimits>,
-        crew: Crew,
+        recipients: Recipients,
         warnings: &Warnings,
         prompt: PromptLine,
     ) -> Option<Self> {
@@ -72,8 +72,9 @@ impl Screen {
         }));
         let views = limits.into_iter().map(|limits| View::new(&limits));
         let views =
-            Views { all: crew.names().zip(views).collect(), elsewhere: Vec::new(), shown: 0 };
-        let mut screen = Self { terminal, area, views, crew, warnings: warnings.clone(), prompt };
+            Views { all: recipients.names().zip(views).collect(), elsewhere: Vec::new(), shown: 0 };
+        let mut screen =
+            Self { terminal, area, views, recipients, warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)
     }
@@ -131,7 +132,7 @@ impl Screen {
     }
 
     fn draw(&mut self) {
-        self.views.shown = self.crew.watched();
+        self.views.shown = self.recipients.watched();
         let shown = self.views.shown;
         if let Some((_, view)) = self.views.all.get_mut(shown) {
             view.prompt = self.prompt.shown();

@@ -37,7 +37,7 @@ pub use self::orders::Controls;
 use self::orders::Orders;
 pub(crate) use self::orders::answer_of_all;
 use self::real_time::{RealTime, clock};
-pub use self::room::{FarAgents, Placed, Places, Seat};
+pub use self::room::{Placed, Places, RemoteAgents, Seat};
 use self::said::SaidLast;
 use self::unsaid::Unsaid;
 use crate::drive::{Driver, Heard, Passed};
@@ -158,13 +158,13 @@ pub enum FlightError {
 
 /// What a flight is connected to besides its drone.
 #[derive(Debug, Default)]
-pub struct Beside {
+pub struct Connections {
     /// Records it.
     pub recorder: Option<Recorder>,
     /// Gives its orders, if it has no plan.
     pub agent: Option<MissionAgent>,
     /// Where the agents of vehicles elsewhere are reached.
-    pub far_agents: Option<Box<dyn FarAgents>>,
+    pub remote_agents: Option<Box<dyn RemoteAgents>>,
     /// Its place among other vehicles.
     pub seat: Option<Seat>,
 }
@@ -208,9 +208,9 @@ impl Flight {
         plan: Option<Plan>,
         config: &VehicleConfig,
         drone: &DroneAddress,
-        beside: Beside,
+        connections: Connections,
     ) -> Result<Self, FlightError> {
-        let Beside { recorder, seat, agent, far_agents } = beside;
+        let Connections { recorder, seat, agent, remote_agents } = connections;
         let stay = match (&plan, &agent) {
             (Some(_), _) => Stay::UntilFlown,
             (None, Some(_)) => Stay::UntilOver,
@@ -225,7 +225,7 @@ impl Flight {
         let (orders, controls) = Orders::new(vehicle.name(), runtime.ending().begin_flight());
         let control_port = ControlPort::read(runtime, SocketAddr::new(address, drone.control_port));
         let (sender, messages) = bounded(MESSAGES);
-        let surroundings = RealTime::new(link, orders, control_port, seat, far_agents);
+        let surroundings = RealTime::new(link, orders, control_port, seat, remote_agents);
         let mut tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
         tick.driver.agent = agent;
         let thread = std::thread::Builder::new()

@@ -10,7 +10,7 @@ use super::LinkSummary;
 use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
-use super::room::{FarAgents, Seat};
+use super::room::{RemoteAgents, Seat};
 use crate::drive::{Heard, NoRoom, Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
@@ -36,7 +36,7 @@ pub(super) struct RealTime {
     /// Where other vehicles are heard.
     seat: Option<Seat>,
     /// Where the agents of vehicles elsewhere are reached.
-    far_agents: Option<Box<dyn FarAgents>>,
+    remote_agents: Option<Box<dyn RemoteAgents>>,
     start: Instant,
     buffer: Vec<u8>,
     /// Datagrams read in this tick.
@@ -59,14 +59,14 @@ impl RealTime {
         orders: Orders,
         control_port: ControlPort,
         seat: Option<Seat>,
-        far_agents: Option<Box<dyn FarAgents>>,
+        remote_agents: Option<Box<dyn RemoteAgents>>,
     ) -> Self {
         Self {
             link,
             orders,
             control_port,
             seat,
-            far_agents,
+            remote_agents,
             start: clock(),
             buffer: vec![0_u8; BUFFER_BYTES],
             taken: 0,
@@ -235,13 +235,13 @@ impl Surroundings for RealTime {
 
     fn hear(&mut self) -> Option<Heard> {
         let near = self.seat.as_ref().and_then(Seat::next_line);
-        let mut far = || self.far_agents.as_mut()?.next_line();
+        let mut far = || self.remote_agents.as_mut()?.next_line();
         let near = near.map(|line| Heard { line, is_far: false });
         near.or_else(|| far().map(|line| Heard { line, is_far: true }))
     }
 
     fn say(&mut self, said: Said) -> Result<(), NoRoom> {
-        match (self.seat.as_ref().and_then(|seat| seat.say(said)), &mut self.far_agents) {
+        match (self.seat.as_ref().and_then(|seat| seat.say(said)), &mut self.remote_agents) {
             (Some(taken), _) => taken,
             (None, Some(far)) => far.say(&said),
             // Nobody is there who could hear it.

@@ -17,7 +17,7 @@ use crate::drive::NoRoom;
 const LINES: usize = 64;
 
 /// How agents of vehicles are reached that other programs fly. It never waits.
-pub trait FarAgents: std::fmt::Debug + Send {
+pub trait RemoteAgents: std::fmt::Debug + Send {
     /// The vehicle's agent says something to one of them. It may be lost on the way.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ use super::refused::Refused;
 use super::roster::Roster;
 use super::state::{STATE_BYTES, Session};
 use crate::drive::NoRoom;
-use crate::flight::{FarAgents, Placed, Places};
+use crate::flight::{Placed, Places, RemoteAgents};
 use crate::runtime::{Runtime, Task};
 
 /// Interval of the states.
@@ -213,7 +213,7 @@ impl Drop for Bridge {
     }
 }
 
-impl FarAgents for Talk {
+impl RemoteAgents for Talk {
     /// Names of vehicles are those of peers, and what an agent says is a line. Who has left the network tells nobody anything.
     fn say(&mut self, Said { to, line }: &Said) -> Result<(), NoRoom> {
         match to.parse().map(|to| Self::say(self, to, line)) {

@@ -11,7 +11,7 @@ use crate::typed;
 
 /// The vehicles, and which of them gets the orders; without a choice all do.
 #[derive(Debug, Clone)]
-pub(super) struct Crew {
+pub(super) struct Recipients {
     all: Arc<[Controls]>,
     chosen: Option<usize>,
     /// The one that was chosen last, for displays.
@@ -23,7 +23,7 @@ pub(super) struct Crew {
 #[error("this is for one vehicle: name it before the order, or choose it")]
 pub(super) struct NoneChosen;
 
-impl Crew {
+impl Recipients {
     /// At least one vehicle.
     pub(super) fn new(all: Vec<Controls>) -> Self {
         Self { all: all.into(), chosen: None, watched: Arc::default() }
@@ -104,7 +104,7 @@ impl Crew {
         self.each(|controls| controls.order(by, order.clone()))
     }
 
-    /// As [`Crew::order`], and waits for the answers.
+    /// As [`Recipients::order`], and waits for the answers.
     ///
     /// # Errors
     /// That of the first one, if all refuse.
@@ -129,7 +129,7 @@ impl Crew {
 }
 
 /// Who is addressed, for people.
-impl fmt::Display for Crew {
+impl fmt::Display for Recipients {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Ok(controls) => controls.vehicle().fmt(f),
