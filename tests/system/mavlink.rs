@@ -217,9 +217,10 @@ impl Process {
     #[track_caller]
     fn interrupt(mut self) {
         signal(&self.0, "-INT");
-        let start = Instant::now();
+        let (start, lateness) = (Instant::now(), Lateness::measure());
         assert_eq!(self.0.wait().unwrap().code(), Some(130));
-        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+        let taken = start.elapsed();
+        assert!(taken < Duration::from_secs(5) + 3 * lateness.worst(), "{taken:?}");
     }
 }
 
