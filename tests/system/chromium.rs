@@ -14,6 +14,9 @@ use tungstenite::{Message, WebSocket};
 
 /// Timeout of all operations of a page, even on a busy machine.
 const PATIENCE: Duration = Duration::from_mins(2);
+/// That the drone lands on an operator's order: the landing is over soon, and this stays.
+pub(crate) const LANDS: &str =
+    "document.querySelector('#events').textContent.includes(\"landing: the operator's order\")";
 
 /// How many browsers may still be started. Each takes most of a core: with more of them pages stand still for
 /// seconds, while what they show flies on.

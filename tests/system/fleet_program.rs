@@ -200,8 +200,8 @@ fn a_signal_lands_all() {
 /// It lies on the floor, and everybody knows where.
 #[test]
 fn the_others_fly_on_beside_one_whose_motors_are_cut() {
-    let stay = |x_m: f64| format!("takeoff\nsetStayTime 6\ngoto {x_m} 0 0 0\nland\n");
-    let files = Files::new(&[("left", -2.5, &stay(-2.5)), ("right", 2.5, &stay(2.5))]);
+    let stay = |s: u32, x_m: f64| format!("takeoff\nsetStayTime {s}\ngoto {x_m} 0 0 0\nland\n");
+    let files = Files::new(&[("left", -2.5, &stay(10, -2.5)), ("right", 2.5, &stay(100, 2.5))]);
     let mut fleet = Ordered::start(&files);
     fleet.until(|object| object["vehicle"] == "right" && object["step"] == 2);
     fleet.order(&json!({ "id": 1, "vehicle": "right", "order": "cut" }));

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::chromium::{Chromium, Tab};
+use crate::chromium::{Chromium, LANDS, Tab};
 use crate::station::Station;
 
 const CTRL: u32 = 2;
@@ -195,6 +195,9 @@ fn it_is_flown(person: &mut Keyboard<'_>) {
     person.wait("status.mission_waits");
     person.key("r");
     person.wait("!status.mission_waits");
+    // What is left of the mission would be flown before the way to a button is gone with Tab.
+    person.key(" ");
+    person.wait("status.mission_waits");
     person.press("byhand");
     person.chromium.key(&person.tab, "keyDown", "KeyS");
     person.wait("status.mission_waits && status.velocity_m_s[1] < -0.3");
@@ -206,7 +209,7 @@ fn it_is_flown(person: &mut Keyboard<'_>) {
     person.wait("document.querySelector('#typed').value === '' && status.phase === 'flying'");
     person.key("Tab");
     person.key("l");
-    person.wait("status.phase === 'landing'");
+    person.wait(LANDS);
     person.wait("status.phase === 'standby'");
 }
 
@@ -316,7 +319,7 @@ fn a_drone_is_held_and_landed_from_everywhere() {
     person.wait(goes_on);
     person.chromium.evaluate(&person.tab, "document.querySelector('#report').focus(); true");
     person.key("l");
-    person.wait("status.phase === 'landing'");
+    person.wait(LANDS);
     // Whoever looks at the list sees there that the flight has ended.
     let ended = "status.phase === 'standby' && document.querySelectorAll('#recordings tbody tr').length === 1";
     person.wait(&format!("{ended} && !{goes_on}"));
