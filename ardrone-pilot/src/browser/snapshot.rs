@@ -249,12 +249,29 @@ fn command(declared: &Declaration) -> Value {
 mod tests {
     use super::*;
     use crate::timing::TickHealth;
-    use autopilot::vehicle::FlightEvent;
+    use autopilot::vehicle::{FlightEvent, Status, Vehicle};
 
     fn of(plan: &Plan) -> Snapshot {
         let vehicles = [VehicleName::default()];
         let config = VehicleConfig::default();
         Snapshot::new(Some(plan), &config, "192.168.1.1", &vehicles, &vehicles)
+    }
+
+    /// Its own status comes a moment later.
+    #[test]
+    fn of_a_new_mission_no_step_of_the_one_before_is_shown() {
+        let plan = |text| Plan::parse("p", text).unwrap();
+        let mut snapshot = of(&plan("takeoff\nland\n"));
+        let mut take_in = |telemetry| {
+            let content = Content::Telemetry(Duration::ZERO, telemetry, TickHealth::default());
+            snapshot.take_in(&Message { vehicle: VehicleName::default(), content })
+        };
+        let status = Vehicle::new(&VehicleConfig::default()).unwrap().status(Duration::ZERO);
+        take_in(Telemetry::Status(Status { step: Some(1), steps_done: Some(1), ..status }));
+        let steps = plan("takeoff\ngoto 0 1 0 0\nland\n").steps().to_vec();
+        let next = Telemetry::Mission { name: "p".to_owned(), id: None, steps, steps_done: None };
+        let shown = &take_in(next)["status"];
+        assert_eq!((&shown["step"], &shown["steps_done"]), (&Value::Null, &Value::Null));
     }
 
     #[test]
