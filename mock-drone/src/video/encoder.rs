@@ -36,7 +36,7 @@ pub struct EncodedPicture {
 /// The pictures since the last key picture, with it, as long as all show the same.
 ///
 /// A whole group of them that keeps the bit rate is sent again while nothing moves: a drone that stands on the ground, before most
-/// flights and after each, would take more than half a processor to show what it has shown.
+/// flights and after each, would take half a processor to show what it has shown.
 #[derive(Default)]
 struct Still {
     of: Option<(Scene, View)>,
