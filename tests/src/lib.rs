@@ -8,6 +8,7 @@ pub mod cross_checks;
 pub mod fleet;
 pub mod healthy;
 pub mod landings;
+pub mod lateness;
 pub mod rules;
 pub mod sensors;
 pub mod sim;

@@ -13,9 +13,9 @@ use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{DroneConfig, Tag27, WorldConfig};
+use system_tests::lateness::Lateness;
 use tokio::time::{sleep, timeout};
 
-use crate::lateness::Lateness;
 use crate::parting::{EACCES, FLOOD, ended_within, refuse, refusing_library, wait_until};
 use crate::relay::Relay;
 use crate::udp::address;

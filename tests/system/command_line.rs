@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::Output;
 use std::time::{Duration, Instant};
 
-use crate::lateness::Lateness;
+use system_tests::lateness::Lateness;
+
 use crate::processes::program;
 
 fn pilot(arguments: &[&str]) -> Output {

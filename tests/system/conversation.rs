@@ -11,8 +11,8 @@ use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::{Value, json};
+use system_tests::lateness::Lateness;
 
-use crate::lateness::Lateness;
 use crate::processes::program;
 
 /// Timeout, longer than any flight here takes on a busy machine.

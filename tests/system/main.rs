@@ -23,7 +23,6 @@ mod fleet_faults;
 mod fleet_program;
 mod ground_station;
 mod keyboard;
-mod lateness;
 mod mavlink;
 mod mission_agents;
 mod operator;

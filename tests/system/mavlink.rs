@@ -13,8 +13,8 @@ use mavlink_vehicle::dialect::{
 use mavlink_vehicle::{Encoder, Key, LONGEST_FRAME, Signing, frames};
 use rand::{Rng as _, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
+use system_tests::lateness::Lateness;
 
-use crate::lateness::Lateness;
 use crate::processes::{plan_file, program, signal};
 
 /// Longer than any flight here takes on a busy machine.

@@ -10,9 +10,9 @@ use autopilot::VehicleConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::{DroneConfig, WorldConfig};
 use nalgebra::Vector2;
+use system_tests::lateness::Lateness;
 use system_tests::plan;
 
-use crate::lateness::Lateness;
 use crate::processes::{plan_file, program, signal};
 use crate::relay::{Relay, Said};
 

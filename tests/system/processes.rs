@@ -14,8 +14,7 @@ use ardrone_pilot::recording::Log;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
-
-use crate::lateness::Lateness;
+use system_tests::lateness::Lateness;
 
 /// A program of this workspace, built in the same profile.
 pub(crate) fn program(name: &str) -> Command {

@@ -106,9 +106,11 @@ static KINDS: &[Kind] = &[
     Kind { noise: METRES, ..kind(Part::Tags, "distance of a landing from its tag, worst", "m", Loss::More) },
     // Other flags of the compiler cut crates elsewhere, which moved the count of a function by 8 %.
     Kind { share: 0.10, ..kind(Part::Instructions, "instructions", "", Loss::More) },
+    kind(Part::Cadence, "lateness of ticks, 99 of 100", "ms", Loss::NotJudged),
+    kind(Part::Cadence, "ticks skipped", "", Loss::NotJudged),
     // Beside other programs. A tick is every 30 ms.
-    Kind { share: 2.0, noise: 3.0, ..kind(Part::Cadence, "lateness of ticks, 99 of 100", "ms", Loss::More) },
-    Kind { noise: 3.0, ..kind(Part::Cadence, "ticks skipped", "", Loss::More) },
+    Kind { noise: 7.4, ..kind(Part::Cadence, "lateness of ticks beyond the machine's", "ms", Loss::More) },
+    Kind { noise: 3.0, ..kind(Part::Cadence, "ticks skipped beyond the machine's", "", Loss::More) },
     Kind { share: 0.05, ..kind(Part::Agent, "code on a Cortex-M4", "bytes", Loss::More) },
     kind(Part::Agent, "state", "bytes", Loss::More),
     Kind { share: 0.05, ..kind(Part::Agent, "stack of a step", "bytes", Loss::More) },

@@ -1,0 +1,68 @@
+//! How late the machine itself is, measured beside a program in real time, so that a limit on the time of the program
+//! is not a limit on the speed of the machine.
+#![expect(clippy::disallowed_methods, reason = "it measures")]
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use ardrone_pilot::realtime::Realtime;
+
+/// Measures until it is asked for its result.
+#[derive(Debug)]
+pub struct Lateness {
+    over: Arc<AtomicBool>,
+    thread: JoinHandle<Vec<Duration>>,
+}
+
+impl Lateness {
+    /// That of ordinary threads.
+    pub fn measure() -> Self {
+        Self::with(|| {})
+    }
+
+    /// That of a thread which is scheduled as the one of the ticks is.
+    pub fn of_ticks() -> Self {
+        Self::with(|| _ = Realtime::acquire())
+    }
+
+    fn with(prepare: impl FnOnce() + Send + 'static) -> Self {
+        let over = Arc::new(AtomicBool::new(false));
+        let thread = std::thread::spawn({
+            let over = Arc::clone(&over);
+            move || {
+                prepare();
+                until(&over)
+            }
+        });
+        Self { over, thread }
+    }
+
+    /// The delays with which a thread that only sleeps woke up.
+    ///
+    /// # Panics
+    /// If the thread did.
+    #[must_use]
+    pub fn delays(self) -> Vec<Duration> {
+        self.over.store(true, Ordering::Relaxed);
+        self.thread.join().expect("the thread only sleeps, and remembers")
+    }
+
+    /// The longest of the delays.
+    #[must_use]
+    pub fn worst(self) -> Duration {
+        self.delays().into_iter().max().unwrap_or_default()
+    }
+}
+
+fn until(over: &AtomicBool) -> Vec<Duration> {
+    const NAP: Duration = Duration::from_millis(10);
+    let mut delays = Vec::new();
+    while !over.load(Ordering::Relaxed) {
+        let before = Instant::now();
+        std::thread::sleep(NAP);
+        delays.push(before.elapsed().saturating_sub(NAP));
+    }
+    delays
+}
