@@ -11,9 +11,9 @@ use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
 
 use crate::chromium::{Chromium, Tab};
-use crate::lateness::Lateness;
 use crate::processes::{plan_file, program, signal, with_page};
 use crate::station::response;
+use system_tests::lateness::Lateness;
 
 /// A flight with a page.
 struct Flown {
@@ -237,14 +237,12 @@ fn one_click_cuts_nothing_and_two_do() {
         &tab,
         "!!status && status.phase === 'flying' && status.pose && status.pose.z_m > 0.5",
     );
+    chromium.watch(&tab, "#cut");
     chromium.click(&tab, "#cut", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Again: the drone FALLS'");
-    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Cut motors'");
+    chromium.showed(&tab, &["Again: the drone FALLS", "Cut motors"]);
     assert_eq!(chromium.evaluate(&tab, "status.phase"), json!("flying"));
-    chromium.click(&tab, "#cut", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Again: the drone FALLS'");
-    chromium.click(&tab, "#cut", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#alarm').innerText.includes('emergency')");
+    let emergency = "document.querySelector('#alarm').innerText.includes('emergency')";
+    chromium.confirm(&tab, "#cut", emergency);
     assert_eq!(flown.end().0, Some(50));
 }
 

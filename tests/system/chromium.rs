@@ -229,6 +229,49 @@ impl Chromium {
         self.mouse(tab, selector, off, &["mousePressed", "mouseReleased"]);
     }
 
+    /// Clicks a button that asks for a second click, and again when it has asked, until a condition is true in the page. It waits
+    /// for the second click for 2.5 s only, and the machine may stand still for longer.
+    ///
+    /// # Panics
+    /// If it never is, or the button does not ask.
+    pub(crate) fn confirm(&mut self, tab: &Tab, selector: &str, condition: &str) {
+        let start = Instant::now();
+        loop {
+            self.watch(tab, selector);
+            self.click(tab, selector, [0.0; 2]);
+            self.wait(tab, "shown.length > 0 && shown[0].startsWith('Again')");
+            self.click(tab, selector, [0.0; 2]);
+            let clicked = Instant::now();
+            while clicked.elapsed() < Duration::from_secs(10) {
+                if self.evaluate(tab, condition) == json!(true) {
+                    return;
+                }
+                std::thread::sleep(Duration::from_millis(50));
+            }
+            assert!(start.elapsed() < PATIENCE, "never so after two clicks: {condition}");
+        }
+    }
+
+    /// Keeps in `shown` of the page whatever an element shows in place of what it shows now: what it shows for a moment only may
+    /// be over when a test looks.
+    pub(crate) fn watch(&mut self, tab: &Tab, selector: &str) {
+        let watch = format!(
+            "{{ watched?.disconnect(); \
+             const element = document.querySelector('{selector}'); \
+             let last = element.textContent; \
+             shown = []; \
+             watched = new MutationObserver(() => {{ \
+             if (element.textContent !== last) shown.push(last = element.textContent); }}); \
+             watched.observe(element, {{ childList: true, characterData: true, subtree: true }}); }} true"
+        );
+        self.evaluate(tab, &format!("var watched, shown; {watch}"));
+    }
+
+    /// Waits until the watched element has shown these texts and no other, one after the other.
+    pub(crate) fn showed(&mut self, tab: &Tab, texts: &[&str]) {
+        self.wait(tab, &format!("JSON.stringify(shown) === {}", json!(json!(texts).to_string())));
+    }
+
     /// Pastes a text into what has the focus.
     pub(crate) fn insert(&mut self, tab: &Tab, selector: &str, text: &str) {
         self.evaluate(tab, &format!("document.querySelector('{selector}').focus(); true"));

@@ -145,9 +145,9 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     // The button of the cut answers to every press, and the sticks that are held do not disarm it. They are held during one
     // of them only: the detour by hand is as long as they are.
     for press in 0..3 {
+        chromium.watch(&tab, "#cut");
         chromium.click(&tab, "#cut", [0.0; 2]);
-        chromium.wait(&tab, "document.querySelector('#cut').textContent.includes('FALLS')");
-        chromium.wait(&tab, "document.querySelector('#cut').textContent === 'Cut motors'");
+        chromium.showed(&tab, &["Again: the drone FALLS", "Cut motors"]);
         assert_eq!(chromium.evaluate(&tab, "document.querySelector('#answer').textContent"), "");
         if press == 0 {
             chromium.key(&tab, "keyUp", "KeyS");
