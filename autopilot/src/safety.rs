@@ -238,8 +238,8 @@ pub struct SafetyMonitor {
     /// What the fence leaves of this tick's sticks.
     brake: Brake,
     sticks: Sticks,
-    /// Where manual control was stopped, until it leads inside again. It must not be found anew in each tick: a place that
-    /// goes ahead of the drone would lead it on, along the border, up and down.
+    /// Where manual control was stopped, until the drone would stop inside and is not led outside again. It must not be found
+    /// anew in each tick: a place that goes ahead of the drone would lead it on, along the border, up and down.
     stop: Option<Pose>,
     apart: Apart,
 }
@@ -312,10 +312,14 @@ impl SafetyMonitor {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             AgentCommand::GoTo(target) => self.kept_inside(&target, now),
             AgentCommand::Sticks => {
-                self.stop = self.stop.filter(|stop| self.leads_on(stop, now));
-                if self.stop.is_none() && !self.stops_inside(now) {
-                    self.stop = Some(self.place_to_stop(now));
-                }
+                self.stop = match self.stop {
+                    // Whatever the sticks ask for, first it stops.
+                    Some(stop) if self.leads_on(&stop, now) || !self.stops_inside(now) => {
+                        Some(stop)
+                    }
+                    None if !self.stops_inside(now) => Some(self.place_to_stop(now)),
+                    _ => None,
+                };
                 self.stop.map_or((command, None), |stop| {
                     (AgentCommand::GoTo(stop), Some(Veto::NearFence))
                 })

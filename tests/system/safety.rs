@@ -202,6 +202,59 @@ fn a_stick_that_is_held_at_the_fence_leads_the_drone_nowhere() {
     }
 }
 
+/// Who lets go of the sticks at the border or the ceiling, or asks for little, is not made faster by what stops the drone there.
+#[test]
+fn the_fence_makes_nobody_faster() {
+    const FREE: FlightLimits = FlightLimits::new(Border::circle(1e3), 0.3, 100.0);
+    const NARROW: FlightLimits = FlightLimits::new(Border::circle(1.0), 0.3, 1.5);
+    let square = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
+    let square = FlightLimits { border: Border::polygon(&square).unwrap(), ..NARROW };
+    let sticks = |[roll, pitch, gaz, yaw]: [f64; 4]| Sticks { roll, pitch, gaz, yaw };
+    // Largest true speed, from 3 s after the sticks were changed.
+    let fastest_m_s = |limits, profile, first: [f64; 4], then: [f64; 4]| {
+        let steered = (80..400_u32).map(|tenth| {
+            let sticks = sticks(if tenth < 200 { first } else { then });
+            (SECOND / 10 * tenth, OperatorOrder::Steer(sticks))
+        });
+        let orders = steered.chain([(40 * SECOND, OperatorOrder::Land)]).collect();
+        let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
+        let drone = DroneConfig { profile, ..DroneConfig::default() };
+        let world = WorldConfig { drone, ..WorldConfig::default() };
+        let simulation = Simulation { pilot, orders, world, ..Simulation::default() };
+        let flown = plan("takeoff\ngoto 0 0 0.2 0\nsetStayTime 60\ngoto 0 0 0.2 0\nland\n");
+        let mut fastest_m_s = 0.0_f64;
+        let watch = |moment: &Moment| {
+            if (23 * SECOND..40 * SECOND).contains(&moment.now) {
+                fastest_m_s = fastest_m_s.max(moment.truth.velocity_m_s.xy().norm());
+            }
+        };
+        simulation.fly_watched(flown, watch).unwrap();
+        fastest_m_s
+    };
+    let mut wrong = Vec::new();
+    for (first, then) in [
+        ([0.0, 0.0, 0.4, 0.0], [0.0; 4]),
+        ([0.0, 0.0, 0.4, 0.0], [0.0, 0.0, 0.0, 0.4]),
+        ([0.0, 0.0, 0.4, 0.0], [0.0, -0.05, 0.0, 0.0]),
+        ([0.2, 0.0, 0.0, 0.0], [0.0; 4]),
+        ([0.2, 0.0, 0.0, 0.0], [0.0, -0.05, 0.0, 0.0]),
+        ([0.5, 0.3, 0.0, 0.0], [0.0, 0.0, 0.0, -0.4]),
+        ([0.5, 0.3, 0.0, 0.0], [0.02, 0.05, 0.0, 0.2]),
+        ([0.5, 0.3, 0.4, 0.0], [-0.03, 0.0, 0.01, 0.0]),
+    ] {
+        for profile in [Profile::rec(), Profile::tum(), Profile::tf(), Profile::leo()] {
+            let free_m_s = fastest_m_s(FREE, profile, [0.0; 4], then);
+            for limits in [NEAR, NARROW, square] {
+                let fenced_m_s = fastest_m_s(limits, profile, first, then);
+                if fenced_m_s > free_m_s.max(0.3) + 0.3 {
+                    wrong.push(format!("{:?} {first:?} {then:?}: {fenced_m_s:.2} m/s, and {free_m_s:.2} without a fence", limits.border));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// After a gust that no drone could resist, the drone comes back, low, and lands inside.
 #[test]
 fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {

@@ -286,8 +286,9 @@ fn a_held_stick_is_stopped_at_one_place_until_it_leads_inside() {
     let back = Situation { sticks: ahead, ..moving(turned, [0.0; 3]) };
     assert_eq!(check(&back), None, "it looks back, and flies so");
     for (roll, pitch) in [(1.0, 0.1), (-1.0, 0.0), (0.0, 0.0)] {
-        assert!(check(&fast(8.0, 0.4, ahead)).is_some());
+        let stop = check(&fast(8.0, 0.4, ahead)).unwrap();
         let along = Sticks { roll, pitch, ..Sticks::default() };
+        assert_eq!(check(&fast(8.5, 0.8, along)), Some(stop), "first it stops: {roll} {pitch}");
         assert_eq!(check(&rests(along)), None, "{roll} {pitch}");
     }
     assert!(check(&fast(8.0, 0.4, ahead)).is_some());
