@@ -108,7 +108,8 @@ impl CommandError {
             | Self::Settings(_)
             | Self::Log { .. }
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
-            | Self::Replay(_) => 20,
+            | Self::Replay(_)
+            | Self::Report(_) => 20,
             Self::Video(ExportError::Format { .. }) | Self::OfPlans | Self::NoCommand(_) => 2,
             Self::Elsewhere(error) => error.exit_status(),
             Self::MavlinkArguments(error) => error.exit_status(),
@@ -123,7 +124,6 @@ impl CommandError {
             | Self::Picture(_)
             | Self::Video(_)
             | Self::Threads(_)
-            | Self::Report(_)
             | Self::Recording(_)
             | Self::Browser(_)
             | Self::Mavlink(_)

@@ -90,9 +90,17 @@ pub enum Entry {
 /// Why a log cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
-    /// Not an MCAP file, or a damaged one.
+    /// Not an MCAP file.
     #[error("not a flight log: {}", printable(&.0.to_string()))]
     Mcap(#[from] McapError),
+    /// A part cannot be read, and others follow it: it was not cut off.
+    #[error("it is damaged before byte {at}: {}", printable(&.problem.to_string()))]
+    Damaged {
+        /// How much of the file was read.
+        at: usize,
+        /// What is wrong there.
+        problem: McapError,
+    },
     /// The file is larger than any flight's log.
     #[error("it is larger than {} MB: no flight is that long", LARGEST_FILE_BYTES / 1_000_000)]
     TooLarge,
@@ -129,7 +137,7 @@ impl Log {
     /// Reads the content of a file. A truncated log is read as far as it goes.
     ///
     /// # Errors
-    /// [`LogError`] if it is not a flight log, has another format or a damaged message, or is larger than
+    /// [`LogError`] if it is not a flight log, has another format or is damaged, or is larger than
     /// [`LARGEST_FILE_BYTES`].
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
         Self::read_topics(file, &topic::ALL)
@@ -304,7 +312,7 @@ impl Content {
     }
 }
 
-/// Visits all records of a file, up to where it was truncated or is damaged.
+/// Visits all records of a file, up to where it was truncated.
 ///
 /// Each record is parsed as soon as it is unpacked and then dropped, so the memory in use is proportional to the unpacked
 /// size, which is bounded by the size of the file.
@@ -337,7 +345,10 @@ pub(super) fn read_records(
                 visit(parse_record(opcode, data)?)?;
             }
             Err(error @ McapError::BadMagic) => return Err(error.into()),
-            // The file was truncated here, or is damaged from here on.
+            Err(problem) if !rest.is_empty() => {
+                return Err(LogError::Damaged { at: file.len() - rest.len(), problem });
+            }
+            // The file was truncated here.
             Err(_) => return Ok(()),
         }
     }
