@@ -1,7 +1,9 @@
 //! Flight logs can be read, even if truncated, and replayed.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind, Seek, SeekFrom, Write};
+use std::rc::Rc;
 use std::time::Duration;
 
 use ardrone_pilot::flight::{Connections, Flight};
@@ -162,6 +164,61 @@ fn a_log_that_was_cut_off_is_read_as_far_as_it_goes() {
         longest = log.entries.len();
     }
     assert!(longest > whole / 2, "{longest} of {whole}");
+}
+
+/// A file on a disk with so much room. What is over it is lost, and reported.
+#[derive(Clone)]
+struct OnFullDisk {
+    file: Rc<RefCell<Cursor<Vec<u8>>>>,
+    room: usize,
+}
+
+impl Write for OnFullDisk {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let mut file = self.file.borrow_mut();
+        let left = self.room.saturating_sub(usize::try_from(file.position()).unwrap());
+        if left == 0 {
+            return Err(ErrorKind::StorageFull.into());
+        }
+        file.write(&bytes[..left.min(bytes.len())])
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for OnFullDisk {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        self.file.borrow_mut().seek(to)
+    }
+}
+
+/// The length of a chunk is written behind its content.
+#[test]
+fn a_log_on_a_disk_that_became_full_is_read_as_far_as_it_goes() {
+    let (_, whole) = recorded(SQUARE, &Simulation::default());
+    let mut longest = 0;
+    for part in 12..24 {
+        let file = Rc::default();
+        let disk = OnFullDisk { file: Rc::clone(&file), room: whole.len() * part / 24 };
+        let mut writer = LogWriter::new(disk, &header(SQUARE)).unwrap();
+        let mut written = 0_u32;
+        let record = |record| {
+            // It ends with the first error, as the recorder does.
+            let goes_on = writer.write(&record).is_ok();
+            written += 1;
+            if goes_on && written.is_multiple_of(50) {
+                _ = writer.flush();
+            }
+        };
+        Simulation::default().fly_recorded(plan(SQUARE), record).unwrap();
+        drop(writer);
+        let log = Log::read(file.borrow().get_ref()).unwrap();
+        assert!(!log.complete && log.entries.len() >= longest, "{part}");
+        longest = log.entries.len();
+    }
+    assert!(longest > Log::read(&whole).unwrap().entries.len() / 2, "{longest}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use base64::prelude::BASE64_STANDARD;
 use diagnostic::printable;
 use mcap::records::Record as McapRecord;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{McapError, parse_record};
+use mcap::{MAGIC, McapError, parse_record};
 use serde::de::DeserializeOwned;
 
 use super::messages::{AgentMessage, Bytes, DecodedNavdata, Mission, Progress, Tags, Tick};
@@ -93,7 +93,7 @@ pub enum LogError {
     /// Not an MCAP file.
     #[error("not a flight log: {}", printable(&.0.to_string()))]
     Mcap(#[from] McapError),
-    /// A part cannot be read, and others follow it: it was not cut off.
+    /// A part of a log that was finished cannot be read.
     #[error("it is damaged before byte {at}: {}", printable(&.problem.to_string()))]
     Damaged {
         /// How much of the file was read.
@@ -328,6 +328,7 @@ pub(super) fn read_records(
         .with_prevalidate_chunk_crcs(true)
         .with_record_length_limit(LONGEST_RECORD_BYTES);
     let mut reader = LinearReader::new_with_options(options);
+    let was_finished = file.ends_with(MAGIC);
     let mut rest = file;
     let mut room = file.len().saturating_mul(LARGEST_RATIO).saturating_add(ALWAYS_UNPACKED_BYTES);
     while let Some(event) = reader.next_event() {
@@ -345,10 +346,10 @@ pub(super) fn read_records(
                 visit(parse_record(opcode, data)?)?;
             }
             Err(error @ McapError::BadMagic) => return Err(error.into()),
-            Err(problem) if !rest.is_empty() => {
+            Err(problem) if was_finished => {
                 return Err(LogError::Damaged { at: file.len() - rest.len(), problem });
             }
-            // The file was truncated here.
+            // The file was truncated here, perhaps in a chunk whose length had not been written yet.
             Err(_) => return Ok(()),
         }
     }
