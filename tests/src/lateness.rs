@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use ardrone_pilot::realtime::Realtime;
+use autopilot::vehicle::TICK;
 
 /// Measures until it is asked for its result.
 #[derive(Debug)]
@@ -19,21 +20,21 @@ pub struct Lateness {
 impl Lateness {
     /// That of ordinary threads.
     pub fn measure() -> Self {
-        Self::with(|| {})
+        Self::with(Duration::from_millis(10), || {})
     }
 
-    /// That of a thread which is scheduled as the one of the ticks is.
+    /// That of a thread which is scheduled as the one of the ticks is, and wakes up as often.
     pub fn of_ticks() -> Self {
-        Self::with(|| _ = Realtime::acquire())
+        Self::with(TICK, || _ = Realtime::acquire())
     }
 
-    fn with(prepare: impl FnOnce() + Send + 'static) -> Self {
+    fn with(nap: Duration, prepare: impl FnOnce() + Send + 'static) -> Self {
         let over = Arc::new(AtomicBool::new(false));
         let thread = std::thread::spawn({
             let over = Arc::clone(&over);
             move || {
                 prepare();
-                until(&over)
+                until(&over, nap)
             }
         });
         Self { over, thread }
@@ -56,13 +57,12 @@ impl Lateness {
     }
 }
 
-fn until(over: &AtomicBool) -> Vec<Duration> {
-    const NAP: Duration = Duration::from_millis(10);
+fn until(over: &AtomicBool, nap: Duration) -> Vec<Duration> {
     let mut delays = Vec::new();
     while !over.load(Ordering::Relaxed) {
         let before = Instant::now();
-        std::thread::sleep(NAP);
-        delays.push(before.elapsed().saturating_sub(NAP));
+        std::thread::sleep(nap);
+        delays.push(before.elapsed().saturating_sub(nap));
     }
     delays
 }
