@@ -312,13 +312,11 @@ impl SafetyMonitor {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             AgentCommand::GoTo(target) => self.kept_inside(&target, now),
             AgentCommand::Sticks => {
-                self.stop = match self.stop {
+                self.stop = if self.stops_inside(now) {
+                    self.stop.filter(|stop| self.leads_on(stop, now))
+                } else {
                     // Whatever the sticks ask for, first it stops.
-                    Some(stop) if self.leads_on(&stop, now) || !self.stops_inside(now) => {
-                        Some(stop)
-                    }
-                    None if !self.stops_inside(now) => Some(self.place_to_stop(now)),
-                    _ => None,
+                    Some(self.stop.unwrap_or_else(|| self.place_to_stop(now)))
                 };
                 self.stop.map_or((command, None), |stop| {
                     (AgentCommand::GoTo(stop), Some(Veto::NearFence))
