@@ -202,7 +202,8 @@ fn a_stick_that_is_held_at_the_fence_leads_the_drone_nowhere() {
     }
 }
 
-/// Who lets go of the sticks at the border or the ceiling, or asks for little, is not made faster by what stops the drone there.
+/// Who lets go of the sticks at the border or the ceiling, or asks for little, is not made faster by what stops the drone there, but
+/// for 0.3 m/s.
 #[test]
 fn the_fence_makes_nobody_faster() {
     const FREE: FlightLimits = FlightLimits::new(Border::circle(1e3), 0.3, 100.0);
@@ -247,7 +248,10 @@ fn the_fence_makes_nobody_faster() {
             for limits in [NEAR, NARROW, square] {
                 let fenced_m_s = fastest_m_s(limits, profile, first, then);
                 if fenced_m_s > free_m_s.max(0.3) + 0.3 {
-                    wrong.push(format!("{:?} {first:?} {then:?}: {fenced_m_s:.2} m/s, and {free_m_s:.2} without a fence", limits.border));
+                    let border = limits.border;
+                    wrong.push(format!(
+                        "{border:?} {first:?} {then:?}: {fenced_m_s:.2} m/s, {free_m_s:.2} without a fence"
+                    ));
                 }
             }
         }

@@ -132,7 +132,8 @@ recorded for the next one to be compared with, would add up unseen.
 What is a loss depends on how much a figure varies where nothing has changed. Flights are simulated: they are the same each time. Instructions are
 counted (by valgrind, of a development build without incremental files), and are the same on each machine, up to the compiler's version. Of what depends on the
 machine, the first build is divided by the work of a reference that is compiled beside it, and the lateness of ticks is judged by how much it exceeds that of
-a thread beside it that only sleeps, in the best of up to three flights; the rest is shown, and not judged. What is recorded and not measured, or measured and not recorded, is a loss.
+a thread beside it that only sleeps, the least of up to three flights; the rest is shown, and not judged. What is recorded and not
+measured, or measured and not recorded, is a loss.
 
 ![The history of all figures, one small drawing for each](figures.svg)
 
